@@ -37,7 +37,9 @@ bool delivers_role(const protocols::Delivery& delivers, Role role) {
 }  // namespace
 
 bool can_deliver(protocols::Protocol protocol, Role role) {
-  return delivers_role(protocols::device_type(protocol).delivers, role);
+  const auto& device = protocols::device_type(protocol);
+  const bool is_heading = role == Role::heading || role == Role::heading_reference;
+  return delivers_role(device.delivers, role) || (is_heading && device.heading_if_chosen);
 }
 
 bool can_deliver(const PortSettings& port, Role role) {

@@ -69,6 +69,43 @@ SkySample sky_of(const ubx::NavSat& sat) {
   return sky;
 }
 
+/// An angle with an accuracy that a vehicle can use.
+std::optional<double> usable_rad(double angle_deg, double accuracy_deg) {
+  constexpr double kWorst_deg = 30;
+  if (accuracy_deg <= 0 || accuracy_deg > kWorst_deg || std::abs(angle_deg) > 360) return std::nullopt;
+  return angle_deg * base::kRadiansPerDegree;
+}
+
+Instrument::Verdict read_attitude(const ubx::NavAttitude& attitude, Receiver& receiver) {
+  const auto& errors_deg = attitude.accuracies_deg;
+  const auto angle = [&](std::size_t i) { return usable_rad(attitude.angles_deg[i], errors_deg[i]); };
+  CompassSample sample;
+  if (const auto roll_rad = angle(0), pitch_rad = angle(1); roll_rad && pitch_rad) {
+    sample.roll_rad = roll_rad;
+    sample.pitch_rad = pitch_rad;
+    sample.tilt_std_rad = std::max(errors_deg[0], errors_deg[1]) * base::kRadiansPerDegree;
+  }
+  if (const auto heading_rad = angle(2)) {
+    sample.heading_rad = base::as_heading(*heading_rad);
+    sample.heading_is_true = true;
+    sample.heading_std_rad = errors_deg[2] * base::kRadiansPerDegree;
+  }
+  if (!sample.heading_rad && !sample.tilt_std_rad) return Instrument::Verdict::ignored;
+  hand_over(sample, receiver, false);
+  return Instrument::Verdict::used;
+}
+
+Instrument::Verdict read_relative(const ubx::RelativePosition& relative, Receiver& receiver) {
+  constexpr const char* kNames[] = {"relative north", "relative east", "relative down"};
+  for (std::size_t i = 0; i < 3 && relative.position_valid; ++i) {
+    hand_over(
+        ScalarSample{Text<24>(kNames[i]), Text<16>("m"), relative.position_ned_m[i], relative.accuracies_m[i]},
+        receiver, false);
+  }
+  const auto verdict = read_attitude(relative.line, receiver);
+  return relative.position_valid ? Instrument::Verdict::used : verdict;
+}
+
 /// Passes on position and satellites of NMEA sentences, or only looks at their times.
 class NmeaGate : public Receiver {
  public:
@@ -94,7 +131,7 @@ Instrument::Verdict UbxReceiver::read(const protocols::Frame& frame, Receiver& r
   switch (ubx::code_of(frame).value_or(0)) {
     case ubx::kNavPvt: {
       const auto pvt = ubx::decode_nav_pvt(frame.bytes);
-      return pvt ? read_pvt(*pvt, receiver) : Verdict::out_of_range;
+      return pvt ? read_pvt(*pvt, true, receiver) : Verdict::out_of_range;
     }
     case ubx::kNavTimeGps: {
       const auto time = ubx::decode_nav_timegps(frame.bytes);
@@ -111,6 +148,19 @@ Instrument::Verdict UbxReceiver::read(const protocols::Frame& frame, Receiver& r
       hand_over(sky_of(*sat), receiver, false);
       return Verdict::used;
     }
+    case ubx::kNavRelPosNed: {
+      const auto relative = ubx::decode_nav_relposned(frame.bytes);
+      return relative ? read_relative(*relative, receiver) : Verdict::out_of_range;
+    }
+    case ubx::kNavAtt:
+    case ubx::kHnrAtt: {
+      const auto attitude = ubx::decode_attitude(frame.bytes);
+      return attitude ? read_attitude(*attitude, receiver) : Verdict::out_of_range;
+    }
+    case ubx::kHnrPvt: {
+      const auto pvt = ubx::decode_hnr_pvt(frame.bytes);
+      return pvt ? read_pvt(*pvt, false, receiver) : Verdict::out_of_range;
+    }
     default: return Verdict::ignored;
   }
 }
@@ -121,27 +171,36 @@ bool UbxReceiver::leap_known(const ubx::NavPvt& pvt) const {
   return pvt.fully_resolved && leap_valid_.value_or(true);
 }
 
-Instrument::Verdict UbxReceiver::read_pvt(const ubx::NavPvt& pvt, Receiver& receiver) {
-  nmea_since_ns_.reset();
-  use_nmea_ = false;
+/// A position that inertial sensors carry on between two epochs is no fix: its errors are those of the epochs.
+Instrument::Verdict UbxReceiver::read_pvt(const ubx::NavPvt& pvt, bool is_epoch, Receiver& receiver) {
+  if (is_epoch) {
+    nmea_since_ns_.reset();
+    use_nmea_ = false;
+  }
   if (!can_be(pvt)) return Verdict::out_of_range;
   GpsSample sample;
   sample.time_utc_ns = pvt.utc_ns();
   sample.leap_known = leap_known(pvt);
   sample.fix = pvt.fix();
-  sample.tracked = pvt.satellites;
+  if (is_epoch) sample.tracked = pvt.satellites;
   if (sample.fix != Fix::none) {
     put_position(pvt, sample);
     put_velocity(pvt, course_gate_m_s_, sample);
-    sample.dop = sample.fix == Fix::fix_2d && dop_ ? dop_->horizontal : pvt.pdop;
+    if (is_epoch) {
+      sample.dop = sample.fix == Fix::fix_2d && dop_ ? dop_->horizontal : pvt.pdop;
+    } else {
+      sample.fix = Fix::propagated;
+      sample.climb_m_s.reset();
+    }
   }
   Measurement measurement;
   measurement.value = sample;
   measurement.stated_utc_ns = sample.time_utc_ns;
   measurement.in_leap_second = pvt.second == 60;
+  measurement.paces = is_epoch;
   const bool has_time = sample.fix != Fix::none || (pvt.fix_ok && pvt.fix_type == kTimeOnly);
   measurement.utc_is_known =
-      sample.time_utc_ns && sample.leap_known && has_time && pvt.time_accuracy_s <= kTimeAccuracy_s;
+      is_epoch && sample.time_utc_ns && sample.leap_known && has_time && pvt.time_accuracy_s <= kTimeAccuracy_s;
   receiver.on_measurement(measurement);
   return Verdict::used;
 }

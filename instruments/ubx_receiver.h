@@ -9,8 +9,10 @@
 
 namespace navcal::instruments {
 
-/// u-blox receiver: one sample for each NAV-PVT, satellites in view from NAV-SAT. NMEA on the same port is read
-/// only while no NAV-PVT comes: once its sentences state times kNmeaPatience_ns apart without one between them.
+/// u-blox receiver: one sample for each NAV-PVT, satellites in view from NAV-SAT; attitude from NAV-ATT, HNR-ATT
+/// and the line between two antennas (NAV-RELPOSNED); propagated positions from HNR-PVT. NMEA on the same port is
+/// read only while no NAV-PVT comes: once its sentences state times kNmeaPatience_ns apart without one between
+/// them.
 class UbxReceiver : public Instrument {
  public:
   static constexpr std::int64_t kNmeaPatience_ns = 3'000'000'000;
@@ -21,7 +23,7 @@ class UbxReceiver : public Instrument {
   Verdict read(const protocols::Frame& frame, Receiver& receiver) override;
 
  private:
-  Verdict read_pvt(const protocols::ubx::NavPvt& pvt, Receiver& receiver);
+  Verdict read_pvt(const protocols::ubx::NavPvt& pvt, bool is_epoch, Receiver& receiver);
   [[nodiscard]] bool leap_known(const protocols::ubx::NavPvt& pvt) const;
   Verdict read_nmea(const protocols::Frame& frame, Receiver& receiver);
 

@@ -108,7 +108,10 @@ std::vector<std::uint16_t> candidates(const config::Settings& settings, Role rol
   for (std::size_t i = 0; i < settings.ports.size(); ++i) {
     const auto port = static_cast<std::uint16_t>(i);
     // No device is a reference by itself: most true headings are those of a magnetometer.
-    const bool may_serve = role != Role::heading_reference || is_chosen(settings, port, role);
+    const bool by_choice =
+        role == Role::heading_reference ||
+        (role == Role::heading && protocols::device_type(settings.ports[i].protocol).heading_if_chosen);
+    const bool may_serve = !by_choice || is_chosen(settings, port, role);
     if (may_serve && config::can_deliver(settings.ports[i], role)) ports.push_back(port);
   }
   std::stable_sort(ports.begin(), ports.end(), [&](std::uint16_t a, std::uint16_t b) {

@@ -63,7 +63,8 @@ struct DeviceType {
   bool dates_roll_over = false;  ///< its dates can be whole epochs of 1024 weeks too early
   OptionTables options{};
   VehiclePort vehicle{};
-  Protocol protocol{};  ///< kDeviceTypes fills it in
+  Protocol protocol{};             ///< kDeviceTypes fills it in
+  bool heading_if_chosen = false;  ///< a true heading, too, of some set-ups: [roles] chooses it
 };
 
 /// One row for each device. Values that are not in the enumeration have a row without a name.
@@ -120,7 +121,8 @@ constexpr DeviceType device_row(Protocol protocol) {
               .latency_std_s = 0.020,
               .rate_Hz = 1,
               .delivers = {.position = true, .velocity = true},
-              .options = {.fix = true}};
+              .options = {.fix = true},
+              .heading_if_chosen = true};
     case Protocol::mip:
       return {.name = "mip",
               .baud = 115200,

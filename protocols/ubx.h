@@ -20,6 +20,7 @@ namespace navcal::protocols::ubx {
 using MessageCode = std::uint16_t;
 
 inline constexpr MessageCode kNavDop = 0x0104, kNavPvt = 0x0107, kNavTimeGps = 0x0120, kNavSat = 0x0135;
+inline constexpr MessageCode kNavAtt = 0x0105, kNavRelPosNed = 0x013C, kHnrPvt = 0x2800, kHnrAtt = 0x2801;
 inline constexpr MessageCode kAckNak = 0x0500, kAckAck = 0x0501;
 inline constexpr MessageCode kCfgMsg = 0x0601, kCfgRate = 0x0608, kCfgValset = 0x068A;
 inline constexpr MessageCode kMonVer = 0x0A04, kTimTp = 0x0D01;

@@ -13,6 +13,7 @@ constexpr double kDopStep = 0.01, kResidualStep_m = 0.1;
 // GPS time begins in 1980; nanoseconds since 1970 in 64 bits end in 2262.
 constexpr std::uint16_t kFirstPvtYear = 1980, kLastPvtYear = 2261;
 constexpr std::size_t kPvtLength = 92, kPvtLengthOld = 84;  // the old one is that of generation 7
+constexpr std::size_t kHnrPvtLength = 72, kAttitudeLength = 32, kRelPosLength = 64, kRelPosLengthOld = 40;
 constexpr std::size_t kTimeGpsLength = 16, kDopLength = 18, kSatHeader = 8, kSatSlot = 12;
 
 /// Payload of a frame of this message, if it is long enough.
@@ -29,6 +30,28 @@ double scaled(Bytes payload, std::size_t at, double step) {
 template <std::integral T>
 void put_scaled(std::vector<std::uint8_t>& payload, std::size_t at, double value, double step) {
   put_le(&payload[at], saturated<T>(value / step));
+}
+
+/// Time, kind of fix and place: as in HNR-PVT, where NAV-PVT has another member of `shift` bytes in between.
+NavPvt time_and_place(Bytes p, std::size_t shift) {
+  NavPvt pvt;
+  pvt.time_of_week_ms = get_le<std::uint32_t>(&p[0]);
+  pvt.date = {get_le<std::uint16_t>(&p[4]), p[6], p[7]};
+  pvt.hour = p[8];
+  pvt.minute = p[9];
+  pvt.second = p[10];
+  pvt.date_valid = (p[11] & 1U) != 0;
+  pvt.time_valid = (p[11] & 2U) != 0;
+  pvt.fully_resolved = (p[11] & 4U) != 0;
+  p = p.subspan(shift);
+  pvt.nanosecond = get_le<std::int32_t>(&p[12]);
+  pvt.fix_type = p[16];
+  pvt.fix_ok = (p[17] & 1U) != 0;
+  pvt.longitude_deg = scaled<std::int32_t>(p, 20, kAngleStep_deg);
+  pvt.latitude_deg = scaled<std::int32_t>(p, 24, kAngleStep_deg);
+  pvt.height_m = scaled<std::int32_t>(p, 28, kMillimetre_m);
+  pvt.height_msl_m = scaled<std::int32_t>(p, 32, kMillimetre_m);
+  return pvt;
 }
 
 }  // namespace
@@ -55,26 +78,11 @@ std::optional<NavPvt> decode_nav_pvt(Bytes frame) {
   const auto payload = payload_if(frame, kNavPvt, kPvtLengthOld);
   if (!payload) return std::nullopt;
   const Bytes p = *payload;
-  NavPvt pvt;
-  pvt.time_of_week_ms = get_le<std::uint32_t>(&p[0]);
-  pvt.date = {get_le<std::uint16_t>(&p[4]), p[6], p[7]};
-  pvt.hour = p[8];
-  pvt.minute = p[9];
-  pvt.second = p[10];
-  pvt.date_valid = (p[11] & 1U) != 0;
-  pvt.time_valid = (p[11] & 2U) != 0;
-  pvt.fully_resolved = (p[11] & 4U) != 0;
+  NavPvt pvt = time_and_place(p, 4);
   pvt.time_accuracy_s = scaled<std::uint32_t>(p, 12, kNanosecond_s);
-  pvt.nanosecond = get_le<std::int32_t>(&p[16]);
-  pvt.fix_type = p[20];
-  pvt.fix_ok = (p[21] & 1U) != 0;
   pvt.differential = (p[21] & 2U) != 0;
   pvt.carrier_solution = p[21] >> 6;
   pvt.satellites = p[23];
-  pvt.longitude_deg = scaled<std::int32_t>(p, 24, kAngleStep_deg);
-  pvt.latitude_deg = scaled<std::int32_t>(p, 28, kAngleStep_deg);
-  pvt.height_m = scaled<std::int32_t>(p, 32, kMillimetre_m);
-  pvt.height_msl_m = scaled<std::int32_t>(p, 36, kMillimetre_m);
   pvt.horizontal_accuracy_m = scaled<std::uint32_t>(p, 40, kMillimetre_m);
   pvt.vertical_accuracy_m = scaled<std::uint32_t>(p, 44, kMillimetre_m);
   for (std::size_t i = 0; i < 3; ++i) pvt.velocity_ned_m_s[i] = scaled<std::int32_t>(p, 48 + 4 * i, kMillimetre_m);
@@ -119,6 +127,50 @@ std::vector<std::uint8_t> encode_nav_pvt(const NavPvt& pvt) {
   put_scaled<std::uint16_t>(p, 76, pvt.pdop, kDopStep);
   p[78] = bit(pvt.position_invalid, 0);
   return encode_frame(kNavPvt, p);
+}
+
+std::optional<NavPvt> decode_hnr_pvt(Bytes frame) {
+  const auto payload = payload_if(frame, kHnrPvt, kHnrPvtLength);
+  if (!payload) return std::nullopt;
+  NavPvt pvt = time_and_place(*payload, 0);
+  pvt.ground_speed_m_s = scaled<std::int32_t>(*payload, 36, kMillimetre_m);
+  pvt.heading_of_motion_deg = scaled<std::int32_t>(*payload, 44, kHeadingStep_deg);
+  pvt.horizontal_accuracy_m = scaled<std::uint32_t>(*payload, 52, kMillimetre_m);
+  pvt.vertical_accuracy_m = scaled<std::uint32_t>(*payload, 56, kMillimetre_m);
+  pvt.speed_accuracy_m_s = scaled<std::uint32_t>(*payload, 60, kMillimetre_m);
+  return pvt;
+}
+
+std::optional<NavAttitude> decode_attitude(Bytes frame) {
+  const auto payload = payload_if(frame, get_be<MessageCode>(frame.data() + 2), kAttitudeLength);
+  if (!payload) return std::nullopt;
+  NavAttitude attitude;
+  for (std::size_t i = 0; i < 3; ++i) {
+    attitude.angles_deg[i] = scaled<std::int32_t>(*payload, 8 + 4 * i, kHeadingStep_deg);
+    attitude.accuracies_deg[i] = scaled<std::uint32_t>(*payload, 20 + 4 * i, kHeadingStep_deg);
+  }
+  return attitude;
+}
+
+std::optional<RelativePosition> decode_nav_relposned(Bytes frame) {
+  constexpr double kCentimetre_m = 1e-2, kFine_m = 1e-4;
+  const auto payload = payload_if(frame, kNavRelPosNed, kRelPosLengthOld);
+  const bool is_old = payload && (*payload)[0] == 0;
+  if (!payload || (!is_old && payload->size() < kRelPosLength)) return std::nullopt;
+  const Bytes p = *payload;
+  RelativePosition relative;
+  for (std::size_t i = 0; i < 3; ++i) {
+    relative.position_ned_m[i] = scaled<std::int32_t>(p, 8 + 4 * i, kCentimetre_m) +
+                                 scaled<std::int8_t>(p, (is_old ? 20 : 32) + i, kFine_m);
+    relative.accuracies_m[i] = scaled<std::uint32_t>(p, (is_old ? 24 : 36) + 4 * i, kFine_m);
+  }
+  constexpr std::uint32_t kValid = 1 | 4, kHeadingValid = 0x100, kNormalized = 0x200;
+  const auto flags = get_le<std::uint32_t>(&p[is_old ? 36 : 60]);
+  relative.position_valid = (flags & (kValid | kNormalized)) == kValid;
+  if (is_old || (flags & (kValid | kHeadingValid)) != (kValid | kHeadingValid)) return relative;
+  relative.line.angles_deg[2] = scaled<std::int32_t>(p, 24, kHeadingStep_deg);
+  relative.line.accuracies_deg[2] = scaled<std::uint32_t>(p, 52, kHeadingStep_deg);
+  return relative;
 }
 
 std::optional<NavTimeGps> decode_nav_timegps(Bytes frame) {

@@ -50,6 +50,24 @@ struct NavPvt {
 [[nodiscard]] std::optional<NavPvt> decode_nav_pvt(Bytes frame);
 [[nodiscard]] std::vector<std::uint8_t> encode_nav_pvt(const NavPvt& pvt);
 
+/// HNR-PVT, carried on between the epochs by inertial sensors. It has no accuracy of time, satellites, DOP and
+/// components of the velocity.
+[[nodiscard]] std::optional<NavPvt> decode_hnr_pvt(Bytes frame);
+
+/// NAV-ATT and HNR-ATT: roll, pitch and true heading of the vehicle. An accuracy of 0 says that there is no angle.
+struct NavAttitude {
+  std::array<double, 3> angles_deg{}, accuracies_deg{};
+};
+[[nodiscard]] std::optional<NavAttitude> decode_attitude(Bytes frame);
+
+/// NAV-RELPOSNED: from the antenna of the reference to the receiver's own.
+struct RelativePosition {
+  std::array<double, 3> position_ned_m{}, accuracies_m{};
+  bool position_valid = false;
+  NavAttitude line;  ///< its heading alone, from version 1 on (F9)
+};
+[[nodiscard]] std::optional<RelativePosition> decode_nav_relposned(Bytes frame);
+
 /// NAV-TIMEGPS.
 struct NavTimeGps {
   std::uint32_t time_of_week_ms = 0;

@@ -16,6 +16,9 @@ void decode(const navcal::protocols::Frame& frame) {
   if (const auto pvt = ubx::decode_nav_pvt(frame.bytes)) static_cast<void>(pvt->utc_ns());
   static_cast<void>(ubx::decode_nav_sat(frame.bytes));
   static_cast<void>(ubx::decode_nav_dop(frame.bytes));
+  static_cast<void>(ubx::decode_hnr_pvt(frame.bytes));
+  static_cast<void>(ubx::decode_attitude(frame.bytes));
+  static_cast<void>(ubx::decode_nav_relposned(frame.bytes));
   static_cast<void>(ubx::decode_nav_timegps(frame.bytes));
   static_cast<void>(ubx::decode_acknowledgement(frame.bytes));
   static_cast<void>(ubx::decode_cfg_msg(frame.bytes));
@@ -30,8 +33,9 @@ NAVCAL_FUZZ(ubx) {
   navcal::fuzz::check_stream<ubx::PortScanner>({data, size}, decode);
   // Messages with a valid checksum and an arbitrary payload.
   if (size > 2 && size < ubx::kMaxPayload) {
-    for (const ubx::MessageCode code : {ubx::kNavPvt, ubx::kNavSat, ubx::kNavDop, ubx::kNavTimeGps, ubx::kAckAck,
-                                        ubx::kCfgMsg, ubx::kCfgValset, ubx::kCfgRate, ubx::kMonVer, ubx::kTimTp}) {
+    for (const ubx::MessageCode code : {ubx::kNavAtt, ubx::kNavRelPosNed, ubx::kHnrPvt, ubx::kHnrAtt, ubx::kNavPvt,
+                                        ubx::kNavSat, ubx::kNavDop, ubx::kNavTimeGps, ubx::kAckAck, ubx::kCfgMsg,
+                                        ubx::kCfgValset, ubx::kCfgRate, ubx::kMonVer, ubx::kTimTp}) {
       const auto frame = ubx::encode_frame(code, {data, size});
       decode({ubx::id_of(code), 0, frame});
     }

@@ -9,6 +9,7 @@
 
 #include "config/load.h"
 #include "protocols/ubx_receiver.h"
+#include "protocols/wire_fields.h"
 #include "tests/instruments/collector.h"
 #include "tests/protocols/shared_capture.h"
 
@@ -169,6 +170,125 @@ TEST_F(UbxSamples, ValuesThatCannotBe) {
   EXPECT_EQ(collector.verdicts.back(), Verdict::ignored);
 }
 
+/// A payload of numbers at their offsets, least significant byte first.
+std::vector<std::uint8_t> ubx_payload(std::size_t length,
+                                      std::initializer_list<std::pair<std::size_t, std::int32_t>> numbers) {
+  std::vector<std::uint8_t> bytes(length);
+  for (const auto& [at, number] : numbers) protocols::put_le(&bytes[at], number);
+  return bytes;
+}
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+TEST_F(UbxSamples, TheLineBetweenTwoAntennasIsATrueHeading) {
+  // 1.2345 m north, 0.8 m west, 0.05 m up; 327.1 degrees, accurate to 0.4.
+  const auto line = [](std::int32_t flags) {
+    return ubx_payload(64, {{0, 1},
+                            {8, 123},
+                            {12, -80},
+                            {16, -5},
+                            {24, 32'710'000},
+                            {32, 45},
+                            {36, 100},
+                            {40, 120},
+                            {44, 200},
+                            {52, 40'000},
+                            {60, flags}});
+  };
+  take(ubx::encode_frame(ubx::kNavRelPosNed, line(0x137)));  // fixed, moving base, heading valid
+  const auto places = collector.all<ScalarSample>();
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[0].quantity.view(), "relative north");
+  EXPECT_NEAR(places[0].value, 1.2345, 1e-12);
+  EXPECT_NEAR(places[1].value, -0.8, 1e-12);
+  EXPECT_NEAR(places[2].value, -0.05, 1e-12);
+  EXPECT_NEAR(*places[2].value_std, 0.02, 1e-12);
+  const auto headings = collector.all<CompassSample>();
+  ASSERT_EQ(headings.size(), 1U);
+  EXPECT_NEAR(*headings[0].heading_rad, 327.1 * kDegree, 1e-9);
+  EXPECT_TRUE(headings[0].heading_is_true);
+  EXPECT_NEAR(*headings[0].heading_std_rad, 0.4 * kDegree, 1e-9);
+  EXPECT_FALSE(headings[0].roll_rad || headings[0].pitch_rad);
+  EXPECT_FALSE(newest().paces);
+  take(ubx::encode_frame(ubx::kNavRelPosNed, line(0x037)));  // without a valid heading
+  EXPECT_EQ(collector.all<CompassSample>().size(), 1U);
+  EXPECT_EQ(collector.all<ScalarSample>().size(), 6U);
+  EXPECT_EQ(collector.verdicts, std::vector<Verdict>(2, Verdict::used));
+  take(ubx::encode_frame(ubx::kNavRelPosNed, line(0x133)));  // without a valid position: then nothing holds
+  take(ubx::encode_frame(ubx::kNavRelPosNed, line(0)));
+  EXPECT_EQ(collector.measurements.size(), 7U);
+  EXPECT_EQ(collector.verdicts.back(), Verdict::ignored);
+  // Version 0 has no heading, and other places.
+  take(ubx::encode_frame(ubx::kNavRelPosNed, ubx_payload(40, {{8, 300}, {24, 100}, {36, 0x107}})));
+  EXPECT_EQ(collector.all<ScalarSample>().at(6).value, 3);
+  EXPECT_EQ(collector.all<CompassSample>().size(), 1U);
+  take(ubx::encode_frame(ubx::kNavRelPosNed, ubx_payload(40, {{0, 1}, {36, 0x107}})));
+  EXPECT_EQ(collector.verdicts.back(), Verdict::out_of_range) << "too short";
+}
+
+TEST_F(UbxSamples, AttitudesOfTheReceiverItself) {
+  const auto attitude = [](std::int32_t heading_error) {
+    return ubx_payload(
+        32, {{8, -250'000}, {12, 1'000'000}, {16, 18'050'000}, {20, 50'000}, {24, 60'000}, {28, heading_error}});
+  };
+  for (const ubx::MessageCode code : {ubx::kHnrAtt, ubx::kNavAtt}) {
+    take(ubx::encode_frame(code, attitude(100'000)));
+    const auto sample = collector.all<CompassSample>().back();
+    EXPECT_NEAR(*sample.roll_rad, -2.5 * kDegree, 1e-9);
+    EXPECT_NEAR(*sample.pitch_rad, 10 * kDegree, 1e-9);
+    EXPECT_NEAR(*sample.heading_rad, 180.5 * kDegree, 1e-9);
+    EXPECT_TRUE(sample.heading_is_true);
+    EXPECT_NEAR(*sample.tilt_std_rad, 0.6 * kDegree, 1e-9);
+    EXPECT_NEAR(*sample.heading_std_rad, 1 * kDegree, 1e-9);
+  }
+  for (const std::int32_t no_heading : {0, 18'000'000}) {
+    take(ubx::encode_frame(ubx::kHnrAtt, attitude(no_heading)));
+    EXPECT_FALSE(collector.all<CompassSample>().back().heading_rad);
+  }
+  take(ubx::encode_frame(ubx::kHnrAtt, ubx_payload(32, {})));
+  EXPECT_EQ(collector.verdicts.back(), Verdict::ignored);
+  take(ubx::encode_frame(ubx::kHnrAtt, ubx_payload(31, {})));
+  EXPECT_EQ(collector.verdicts.back(), Verdict::out_of_range);
+}
+
+TEST_F(UbxSamples, PositionsBetweenTheEpochsArePropagated) {
+  auto payload = ubx_payload(72, {{12, 100'000'000},
+                                  {20, -805'000'000},
+                                  {24, 372'500'000},
+                                  {28, 620'000},
+                                  {32, 653'000},
+                                  {36, 5'000},
+                                  {44, 5'313'000},
+                                  {52, 2'000},
+                                  {56, 3'000},
+                                  {60, 250}});
+  protocols::put_le(&payload[4], std::uint16_t{2026});
+  payload[6] = 11;
+  payload[7] = 24;
+  payload[8] = 12;
+  payload[11] = 7;
+  payload[16] = 4;
+  payload[17] = 1;
+  take(ubx::encode_frame(ubx::kHnrPvt, payload));
+  ASSERT_EQ(collector.verdicts, std::vector{Verdict::used});
+  EXPECT_EQ(gps().fix, Fix::propagated);
+  EXPECT_EQ(gps().time_utc_ns, kNoon_ns + 100'000'000);
+  EXPECT_FALSE(newest().utc_is_known);
+  EXPECT_FALSE(newest().paces);
+  EXPECT_NEAR(*gps().latitude_rad, 37.25 * kDegree, 1e-12);
+  EXPECT_NEAR(*gps().longitude_rad, -80.5 * kDegree, 1e-12);
+  EXPECT_NEAR(*gps().height_m, 620, 1e-9);
+  EXPECT_NEAR(*gps().height_msl_m, 653, 1e-9);
+  EXPECT_NEAR(*gps().speed_m_s, 5, 1e-9);
+  EXPECT_NEAR(*gps().course_rad, 53.13 * kDegree, 1e-9);
+  EXPECT_NEAR(*gps().height_std_m, 3, 1e-9);
+  EXPECT_FALSE(gps().climb_m_s || gps().dop || gps().tracked);
+  payload[17] = 0;
+  take(ubx::encode_frame(ubx::kHnrPvt, payload));
+  EXPECT_EQ(gps().fix, Fix::none);
+  EXPECT_FALSE(gps().latitude_rad);
+}
+
 TEST_F(UbxSamples, SatellitesOfAllSystems) {
   ubx::NavSat sat;
   sat.count = 6;
@@ -245,7 +365,6 @@ TEST(UbxCapture, SamplesOfACaptureByOthers) {
     ASSERT_EQ(collector.measurements.size(), 1U);
     const auto sample = collector.all<GpsSample>().at(0);
     if (at<std::uint8_t>(frame.bytes, 20) < 2) return;
-    constexpr double kDegree = std::numbers::pi / 180;
     EXPECT_NEAR(*sample.latitude_rad, at<std::int32_t>(frame.bytes, 28) * 1e-7 * kDegree, 1e-12);
     EXPECT_NEAR(*sample.longitude_rad, at<std::int32_t>(frame.bytes, 24) * 1e-7 * kDegree, 1e-12);
     EXPECT_NEAR(*sample.height_m, at<std::int32_t>(frame.bytes, 32) * 1e-3, 1e-9);

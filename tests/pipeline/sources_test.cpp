@@ -211,6 +211,19 @@ TEST(Sources, TheOperatorsChoiceComesFirstWhateverErrorsAreStated) {
   EXPECT_EQ(sources.serving()[Role::heading], 1);
 }
 
+TEST(Sources, AReceiverIsTheHeadingOnlyWhereTheOperatorSaysSo) {
+  config::Settings settings = with({Protocol::ubx, Protocol::nmea});
+  settings.ports[0].name = "dual";
+  EXPECT_EQ(candidates(settings, Role::heading), (std::vector<std::uint16_t>{1}));
+  EXPECT_TRUE(candidates(settings, Role::heading_reference).empty());
+  for (const Role role : {Role::heading, Role::heading_reference}) {
+    ASSERT_TRUE(config::can_deliver(settings.ports[0], role));
+    settings.roles.port_names.at(static_cast<std::size_t>(role)) = "dual";
+    EXPECT_EQ(candidates(settings, role).front(), 0);
+  }
+  EXPECT_EQ(candidates(settings, Role::position).front(), 0);
+}
+
 TEST(Sources, OnlyWhatHasDeliveredIsSaidToDeliver) {
   Sources sources(with({Protocol::tcm2, Protocol::oncore}));
   EXPECT_EQ(sources.delivering(), RolePorts{});
