@@ -10,6 +10,7 @@
 #include "analysis/log_import.h"
 #include "cli/log_run.h"
 #include "cli/result_file.h"
+#include "protocols/device_types.h"
 
 namespace navcal::cli {
 namespace {
@@ -17,15 +18,15 @@ namespace {
 struct ImportArguments {
   std::string file, to;
   analysis::ImportOptions options;
+  std::string driver;
+  int baud = 0;
   bool json = false;
 };
 
 void expect_known_format(const std::string& name) {
   if (name.empty() || analysis::import_format_named(name) != nullptr) return;
-  std::string known;
-  for (const auto& format : analysis::import_formats())
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", format.name);
-  throw analysis::Failure(analysis::Exit::usage, fmt::format("--format {}: known are {}", name, known));
+  throw analysis::Failure(analysis::Exit::usage,
+                          fmt::format("--format {}: known are {}", name, analysis::import_format_names()));
 }
 
 void import_file(const ImportArguments& arguments) {
@@ -33,9 +34,13 @@ void import_file(const ImportArguments& arguments) {
   expect_no_overwriting({arguments.file, arguments.options.map}, {arguments.to});
   expect_not_ending(arguments.to, ".cap", "a log (.mcap)", "navcal log export --cap makes a capture of a log");
   expect_folder_of(arguments.to);
-  const bool is_foreign = run_log_job(
-      [&](const record::Progress&) { return analysis::is_foreign_log(arguments.file, arguments.options); });
-  if (!is_foreign) {
+  auto device = protocols::protocol_named(arguments.driver);
+  const bool is_foreign = !device && run_log_job([&](const record::Progress&) {
+    return analysis::is_foreign_log(arguments.file, arguments.options);
+  });
+  if (!device && !is_foreign)
+    device = run_log_job([&](const record::Progress&) { return analysis::device_of(arguments.file); });
+  if (!device && !is_foreign) {
     return tell_remarks(run_log_job([&](const record::Progress& progress) {
       return analysis::import_capture(arguments.file, arguments.to, progress);
     }));
@@ -43,7 +48,8 @@ void import_file(const ImportArguments& arguments) {
   if (std::filesystem::exists(arguments.to))
     throw analysis::Failure(analysis::Exit::failed, arguments.to + ": there is a file already");
   const auto report = run_log_job([&](const record::Progress& progress) {
-    return analysis::import_log(arguments.file, arguments.to, arguments.options, progress);
+    return device ? analysis::import_bytes(arguments.file, *device, arguments.baud, arguments.to, progress)
+                  : analysis::import_log(arguments.file, arguments.to, arguments.options, progress);
   });
   if (!arguments.json) tell_remarks(report.remarks);
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
@@ -53,14 +59,25 @@ void import_file(const ImportArguments& arguments) {
 
 void add_log_import(CLI::App& log) {
   const auto arguments = std::make_shared<ImportArguments>();
-  auto* const in = log.add_subcommand("import", "a log of a capture's bytes, or of a log of another system");
-  in->add_option("FILE", arguments->file, "capture (.cap), or a log of another system, known by its content")
+  auto* const in =
+      log.add_subcommand("import", "a log of a capture's or a device's bytes, or of a log of another system");
+  in->add_option("FILE", arguments->file,
+                 "capture (.cap), bytes of a device, or a log of another system, known by its content")
       ->required();
   in->add_option("-o,--output", arguments->to, "the log")->option_text("FILE.mcap")->required();
-  std::string known;
-  for (const auto& format : analysis::import_formats())
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", format.name);
-  in->add_option("--format", arguments->options.format, "read the file as this: " + known)->option_text("NAME");
+  in->add_option("--format", arguments->options.format,
+                 "read the file as this: " + analysis::import_format_names())
+      ->option_text("NAME");
+  std::vector<std::string> devices;
+  for (const auto& device : protocols::kDeviceTypes) {
+    if (device.protocol != protocols::Protocol::described) devices.emplace_back(device.name);
+  }
+  in->add_option("--driver", arguments->driver,
+                 "the file has the bytes of such a device; .nmea and .ubx are known by name and content")
+      ->check(CLI::IsMember(devices))
+      ->option_text("NAME");
+  in->add_option("--baud", arguments->baud, "speed of the line that these bytes came on, default as delivered")
+      ->check(CLI::Range(50, 4'000'000));
   in->add_option("--map", arguments->options.map,
                  "meaning of the columns of a CSV file, or of the outputs of another log: shaft and fins")
       ->option_text("FILE.toml");
@@ -72,6 +89,7 @@ void add_log_import(CLI::App& log) {
       "docs/import.md describes the formats, and the map of columns and outputs.\n\n"
       "Example: navcal log import -o survey.mcap survey.cap\n"
       "         navcal log import -o dive.mcap 00000042.BIN\n"
+      "         navcal log import -o walk.mcap --baud 9600 walk.nmea\n"
       "         navcal log import --map vehicle.toml -o dive.mcap 00000042.BIN");
   in->callback([arguments] { import_file(*arguments); });
 }

@@ -56,7 +56,11 @@ constexpr std::array kFormats{
 
 }  // namespace
 
-std::span<const ImportFormat> import_formats() { return kFormats; }
+std::string import_format_names() {
+  std::string names;
+  for (const ImportFormat& format : kFormats) names.append(names.empty() ? "" : ", ").append(format.name);
+  return names;
+}
 
 const ImportFormat* import_format_of(std::string_view head) {
   const auto found = std::find_if(kFormats.begin(), kFormats.end(),

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,8 +28,8 @@ struct ImportFormat {
 /// The format of a file for which a map is given.
 inline constexpr std::string_view kCsvFormat = "csv";
 
-/// All formats, in the order in which a file is tried.
-[[nodiscard]] std::span<const ImportFormat> import_formats();
+/// Names of all formats, for people.
+[[nodiscard]] std::string import_format_names();
 
 /// nullptr when no format recognises these first bytes of a file.
 [[nodiscard]] const ImportFormat* import_format_of(std::string_view head);

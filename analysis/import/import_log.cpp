@@ -19,13 +19,6 @@ using protocols::samples_line::LineWriter;
 
 constexpr std::size_t kHead_bytes = 4096;
 
-/// A log without UTC begins its times here: 2000-01-01.
-constexpr std::int64_t kStatedDate_ns = 946'684'800'000'000'000;
-
-/// UTC of a receiver is logged some tenths of a second late. The fix with the least delay counts, and this is how
-/// uncertain that one is.
-constexpr std::int64_t kGpsBound_ns = 300'000'000;
-
 /// Other systems log a sample within about this time, and do not say how uncertain it is.
 constexpr double kLogged_std_s = 0.001;
 
@@ -161,14 +154,11 @@ class Writing final : public ImportPass {
 };
 
 /// First bytes of files that are none of the formats, and the conversion that helps.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kRemedies{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kRemedies{
     {{"#ROSBAG V",
       "a ROS 1 bag: \"rosbags-convert --dst-storage mcap --src FILE --dst FOLDER\" makes an .mcap of it"},
      {"SQLite format 3",
-      "an SQLite database: of a ROS 2 bag, \"ros2 bag convert\" with storage_id: mcap makes an .mcap"},
-     {"$", "sentences without times of arrival are no log; \"navcal decode --protocol nmea\" shows what they say"},
-     {"\xB5\x62",
-      "u-blox messages without times of arrival are no log; \"navcal decode --protocol ubx\" shows them"}}};
+      "an SQLite database: of a ROS 2 bag, \"ros2 bag convert\" with storage_id: mcap makes an .mcap"}}};
 
 /// A table without a map: to be refused with words about the map.
 bool has_name_of_csv(const std::filesystem::path& input) {
@@ -182,10 +172,8 @@ const ImportFormat& format_of(const std::filesystem::path& input, std::string_vi
   if (format == nullptr && options.format.empty() && (!options.map.empty() || has_name_of_csv(input)))
     format = import_format_named(kCsvFormat);
   if (format != nullptr) return *format;
-  std::string names;
-  for (const ImportFormat& known : import_formats())
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
-  throw record::BadRecording(fmt::format("{}: byte 0: none of the formats {}", input.string(), names));
+  throw record::BadRecording(
+      fmt::format("{}: byte 0: none of the formats {}", input.string(), import_format_names()));
 }
 
 config::Settings settings_for(const std::filesystem::path& input, const std::vector<std::string>& ports) {

@@ -7,6 +7,7 @@
 
 #include "analysis/import/import_formats.h"
 #include "analysis/import/import_report.h"
+#include "protocols/frame.h"
 #include "record/log/log_info.h"
 
 namespace navcal::analysis {
@@ -24,7 +25,22 @@ namespace navcal::analysis {
 [[nodiscard]] ImportReport import_log(const std::filesystem::path& input, const std::filesystem::path& log,
                                       const ImportOptions& options, const record::Progress& progress);
 
-/// Whether the file is one of the formats of import_formats(), by name or content. Throws as import_log() does.
+/// A log without UTC begins its times here: 2000-01-01.
+inline constexpr std::int64_t kStatedDate_ns = 946'684'800'000'000'000;
+
+/// UTC of a receiver is logged some tenths of a second late. The fix with the least delay counts, and this is how
+/// uncertain that one is.
+inline constexpr std::int64_t kGpsBound_ns = 300'000'000;
+
+/// Makes a log of the bytes of one device, as somebody has saved them (`cat /dev/ttyUSB0 > FILE`). The bytes of
+/// each time that a receiver states, with a fix, begin at that time and follow one another at the speed of the
+/// line; 0: as the device is delivered. Without such times they do so from 2000-01-01 on, and the report says it.
+[[nodiscard]] ImportReport import_bytes(const std::filesystem::path& input, protocols::Protocol protocol, int baud,
+                                        const std::filesystem::path& log, const record::Progress& progress);
+/// The device whose bytes a file has by its name or its first bytes: NMEA 0183 or UBX.
+[[nodiscard]] std::optional<protocols::Protocol> device_of(const std::filesystem::path& input);
+
+/// Whether the file is one of the known formats, by name or content. Throws as import_log() does.
 [[nodiscard]] bool is_foreign_log(const std::filesystem::path& input, const ImportOptions& options);
 
 }  // namespace navcal::analysis

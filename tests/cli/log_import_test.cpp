@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/import/mavlink_frame.h"
+#include "protocols/checked_line.h"
+#include "protocols/ubx_navigation.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/record/temporary_folder.h"
 #include "tests/support/temporary_folder.h"
@@ -98,8 +100,8 @@ TEST_F(LogImport, AFileThatAnotherProgramConvertsIsNamedWithTheConversion) {
       {write("a.bag", "#ROSBAG V2.0\n" + std::string(100, 'x')).string(), "a ROS 1 bag: \"rosbags-convert"},
       {write("b.db3", std::string("SQLite format 3\0", 16)).string(), "ros2 bag convert"},
       {to("folder"), "a folder; of a ROS 2 bag, name the .mcap file in it"},
-      {write("c.nmea", "$GPGLL,,,,,,V*06\r\n").string(), "navcal decode --protocol nmea"},
-      {write("d.ubx", "\xB5\x62\x01").string(), "navcal decode --protocol ubx"}};
+      {write("c.nmea", "$GPGLL,,,,,,V*06").string(), "no frame of nmea gives a sample"},
+      {write("d.ubx", "\xB5\x62\x01").string(), "no frame of ubx gives a sample"}};
   for (const auto& [file, words] : expected) {
     const auto outcome = run({"import", "-o", to("o.mcap"), file});
     EXPECT_EQ(outcome.status, 3) << file;
@@ -107,6 +109,101 @@ TEST_F(LogImport, AFileThatAnotherProgramConvertsIsNamedWithTheConversion) {
     EXPECT_NE(outcome.message.find(words), std::string::npos) << outcome.message;
   }
   EXPECT_FALSE(std::filesystem::exists(path_ / "o.mcap"));
+}
+
+std::string sentence(const std::string& body) {
+  const auto line = protocols::checked_line(body);
+  return {line.begin(), line.end()};
+}
+
+/// A receiver's seconds from 12:00:10 on with a compass between them, as `cat` saves them.
+std::string saved_sentences(int seconds, const std::string& date) {
+  std::string bytes;
+  for (int s = 10; s < 10 + seconds; ++s) {
+    const std::string time = std::to_string(120'000 + s) + ".00", place = "3844.1200,N,00908.4000,W";
+    bytes += sentence("GNRMC," + time + ",A," + place + ",1.2,75.0," + date + ",,,A");
+    bytes += sentence("GNGGA," + time + "," + place + ",1,14,0.8,60.0,M,48.0,M,,");
+    for (int i = 0; i < 5; ++i) bytes += sentence("HEHDT,123.4,T");
+    bytes += sentence("PXYZA,1");
+  }
+  return bytes;
+}
+
+/// The samples that were read, in the log and left out agree.
+void expect_counts_agree(const nlohmann::json& report, const nlohmann::json& info, int samples) {
+  int taken = 0, in_log = 0;
+  for (const auto& one : report["taken"]) taken += one["samples"].get<int>();
+  for (const auto& [topic, of] : info["topics"].items()) {
+    if (topic == "/gps" || topic == "/compass" || topic == "/sky") in_log += of["messages"].get<int>();
+  }
+  EXPECT_EQ(taken, samples) << report;
+  EXPECT_EQ(in_log + report["refused"].get<int>(), taken) << info;
+}
+
+TEST_F(LogImport, SavedBytesOfAReceiverAreALogAtTheTimesThatItStates) {
+  // The second date is before the last rollover of the weeks, and 1024 weeks later is not yet.
+  for (const auto& [date, start] : {std::pair("010326", 1'772'366'410), std::pair("010615", 1'433'160'010)}) {
+    const auto file = write("walk.nmea", "x*00\r\n" + saved_sentences(30, date)).string();
+    const auto outcome = run({"import", "--json", "--baud", "38400", "-o", to("walk.mcap"), file});
+    ASSERT_EQ(outcome.status, 0) << outcome.message;
+    const auto report = nlohmann::json::parse(outcome.output);
+    EXPECT_EQ(report["format"], "nmea");
+    EXPECT_EQ(report["utc"], "gps");
+    EXPECT_NEAR(report["start"].get<double>(), start, 0.1);
+    EXPECT_NEAR(report["duration"].get<double>(), 29.1, 0.1);
+    EXPECT_EQ(report["damaged_bytes"], 6);
+    EXPECT_EQ(report["cut_at"], nullptr);
+    ASSERT_EQ(report["left"].size(), 1U);
+    EXPECT_EQ(report["left"][0]["message"], "PXYZA");
+    EXPECT_EQ(report["left"][0]["count"], 30);
+    expect_counts_agree(report, nlohmann::json::parse(run({"info", "--json", to("walk.mcap")}).output), 30 + 150);
+    ASSERT_EQ(run({"export", "--csv", to("csv"), to("walk.mcap")}).status, 0);
+    const std::string fixes = navcal::test::read_file(to("csv") + "/gps.csv");
+    EXPECT_NE(fixes.find("\n" + std::to_string(start + 20) + "."), std::string::npos) << fixes;
+    ASSERT_EQ(run({"export", "--cap", to("walk.cap"), to("walk.mcap")}).status, 0);
+    std::filesystem::remove_all(path_ / "csv");
+    for (const char* name : {"walk.mcap", "walk.cap"}) std::filesystem::remove(path_ / name);
+  }
+}
+
+TEST_F(LogImport, SavedBytesWithoutATimeArePlacedEvenlyAndThatIsSaid) {
+  std::string headings;
+  for (int i = 0; i < 96; ++i) headings += sentence("HEHDT,123.4,T");
+  const auto file = write("a.bin", headings + "$HEHDT,12").string();
+  const auto outcome = run({"import", "--json", "--driver", "nmea", "-o", to("a.mcap"), file});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  const auto report = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(report["utc"], "none");
+  EXPECT_NEAR(report["start"].get<double>(), 946'684'800, 1);
+  EXPECT_NEAR(report["duration"].get<double>(), static_cast<double>(headings.size()) * 10 / 4800, 0.1);
+  EXPECT_EQ(report["cut_at"], headings.size());
+  EXPECT_EQ(report["remarks"][0], "no time is stated: the bytes are placed evenly, at 4800 Bd");
+  expect_counts_agree(report, nlohmann::json::parse(run({"info", "--json", to("a.mcap")}).output), 96);
+  EXPECT_EQ(run({"import", "--driver", "floppy", "-o", to("b.mcap"), file}).status, 2);
+  EXPECT_EQ(run({"import", "--driver", "keller", "-o", to("b.mcap"), file}).status, 3);
+  EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap"));
+}
+
+TEST_F(LogImport, SavedUbxIsKnownByItsBytesAlsoBetweenSentences) {
+  std::string bytes = saved_sentences(2, "010326");
+  for (int s = 0; s < 20; ++s) {
+    protocols::ubx::NavPvt pvt;
+    pvt.date = {2026, 3, 1};
+    pvt.hour = 12;
+    pvt.second = static_cast<std::uint8_t>(20 + s);
+    pvt.date_valid = pvt.time_valid = pvt.fully_resolved = pvt.fix_ok = true;
+    pvt.fix_type = 3;
+    pvt.latitude_deg = 38;
+    const auto frame = protocols::ubx::encode_nav_pvt(pvt);
+    bytes.append(frame.begin(), frame.end());
+  }
+  const auto outcome = run({"import", "--json", "-o", to("a.mcap"), write("mixed.log", bytes).string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  const auto report = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(report["format"], "ubx");
+  EXPECT_EQ(report["utc"], "gps");
+  EXPECT_NEAR(report["duration"].get<double>(), 19, 1);
+  expect_counts_agree(report, nlohmann::json::parse(run({"info", "--json", to("a.mcap")}).output), 20);
 }
 
 /// A telemetry log with one frame of version 1: SERVO_OUTPUT_RAW with 1500 and 1900 us.
