@@ -142,11 +142,12 @@ void describe_pd6(FieldWriter& fields, const Frame& frame, const std::optional<p
 }
 
 void describe_water_linked(FieldWriter& fields, const Frame& frame, const std::optional<protocols::Date>&) {
-  if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld) {
+  if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld ||
+      frame.id == water_linked::kVelocityJson) {
     write_if_decoded(fields, water_linked::decode_velocity(frame.bytes));
   } else if (frame.id == water_linked::kTransducer) {
     write_if_decoded(fields, water_linked::decode_transducer(frame.bytes));
-  } else if (frame.id == water_linked::kPosition) {
+  } else if (frame.id == water_linked::kPosition || frame.id == water_linked::kPositionJson) {
     write_if_decoded(fields, water_linked::decode_position(frame.bytes));
   }
 }

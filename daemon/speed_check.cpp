@@ -65,11 +65,8 @@ std::string SpeedCheck::message() const {
             "{} sentences, none with a checksum that holds: let the device send checksums, or set "
             "require_checksum = false for this port if it has none",
             judged_bad_);
-      return fmt::format("{} bytes, no intact frame, but plain text: another device or mode than {}?{}",
-                         judged_bytes_, protocols::name_of(protocol_),
-                         protocol_ == protocols::Protocol::water_linked
-                             ? " The JSON of its network port is not read; its serial line (wrz) is"
-                             : "");
+      return fmt::format("{} bytes, no intact frame, but plain text: another device or mode than {}?",
+                         judged_bytes_, protocols::name_of(protocol_));
     case Verdict::noise:
       return fmt::format("noise: {} of {} bytes belong to no frame", judged_skipped_, judged_bytes_);
   }

@@ -39,14 +39,20 @@ std::optional<double> stated_std_m_s(const water_linked::Velocity& velocity) {
 }  // namespace
 
 Instrument::Verdict WaterLinkedLog::read(const protocols::Frame& frame, Receiver& receiver) {
-  if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld)
+  if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld ||
+      frame.id == water_linked::kVelocityJson)
     return read_velocity(frame.bytes, receiver);
-  if (frame.id != water_linked::kPosition) return Verdict::ignored;
+  if (frame.id != water_linked::kPosition && frame.id != water_linked::kPositionJson) return Verdict::ignored;
   const auto reckoning = water_linked::decode_position(frame.bytes);
   if (!reckoning) return Verdict::out_of_range;
   tilt_cosine_ = std::cos(reckoning->pitch_deg * base::kRadiansPerDegree) *
                  std::cos(reckoning->roll_deg * base::kRadiansPerDegree);
   velocities_since_ = 0;
+  constexpr const char* kNames[] = {"local x", "local y", "local z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    hand_over(ScalarSample{Text<24>(kNames[i]), Text<16>("m"), reckoning->position_m[i], reckoning->std_m},
+              receiver, false);
+  }
   return Verdict::used;
 }
 

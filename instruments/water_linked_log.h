@@ -9,7 +9,8 @@ namespace navcal::instruments {
 /// errors and the altitude. wrz states when the ping was reflected and when the line was sent, by the instrument's
 /// own clock: their difference takes the place of the port's latency. Without bottom lock a sample has neither
 /// velocity nor altitude. The altitude is stated along the instrument's axis; the tilt of its dead reckoning, wrp,
-/// makes it vertical where wrp comes. Nothing else of wrp is used, nor the single beams wru.
+/// makes it vertical where wrp comes. Its position, in a frame of its own, is three scalars; the single beams wru
+/// are not used. The network port says the same in JSON.
 class WaterLinkedLog final : public Instrument {
  public:
   Verdict read(const protocols::Frame& frame, Receiver& receiver) override;

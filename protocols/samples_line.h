@@ -28,11 +28,11 @@ struct Scanner {
 
 using Parser = StreamParser<Scanner>;
 
-enum class Kind : std::uint8_t { number, text, boolean, null, list };
+enum class Kind : std::uint8_t { number, text, boolean, null, list, nested };
 
 struct Member {
   std::string_view key;    ///< between its quotes, escapes as they are written
-  std::string_view value;  ///< as it is written; a text and a list without quotes and brackets
+  std::string_view value;  ///< as it is written; a text and a list without quotes and brackets, unless nested
   Kind kind = Kind::null;
 };
 
@@ -41,8 +41,9 @@ class Object {
  public:
   static constexpr std::size_t kMostMembers = 64;
 
-  /// nullopt when the line is not one flat JSON object (RFC 8259), or has more than kMostMembers.
-  [[nodiscard]] static std::optional<Object> parse(Bytes line);
+  /// nullopt when the line is not one flat JSON object (RFC 8259), or has more than kMostMembers. With `nested`,
+  /// lists and objects may be members, of which brackets and texts are looked at alone.
+  [[nodiscard]] static std::optional<Object> parse(Bytes line, bool nested = false);
 
   /// The first member of this name; nullptr when there is none.
   [[nodiscard]] const Member* find(std::string_view key) const;

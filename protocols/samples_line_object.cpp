@@ -77,8 +77,26 @@ class Cursor {
     if (!take(']')) return std::nullopt;
     return Member{{}, before, Kind::list};
   }
-  std::optional<Member> take_value() {
+  std::optional<Member> take_nested() {
+    const char* const first = rest_.data();
+    int depth = 0;
+    do {
+      skip_blanks();
+      if (rest_.empty()) return std::nullopt;
+      if (rest_.front() == '"') {
+        if (!take_text()) return std::nullopt;
+        continue;
+      }
+      depth += rest_.front() == '{' || rest_.front() == '['   ? 1
+               : rest_.front() == '}' || rest_.front() == ']' ? -1
+                                                              : 0;
+      rest_.remove_prefix(1);
+    } while (depth > 0);
+    return Member{{}, {first, static_cast<std::size_t>(rest_.data() - first)}, Kind::nested};
+  }
+  std::optional<Member> take_value(bool nested) {
     skip_blanks();
+    if (nested && (rest_.starts_with('[') || rest_.starts_with('{'))) return take_nested();
     return rest_.starts_with('[') ? take_list() : take_scalar();
   }
 
@@ -191,7 +209,7 @@ std::string unescaped(std::string_view escaped) {
 
 }  // namespace
 
-std::optional<Object> Object::parse(Bytes line) {
+std::optional<Object> Object::parse(Bytes line, bool nested) {
   Cursor cursor({reinterpret_cast<const char*>(line.data()), line.size()});
   Object object;
   if (!cursor.take('{')) return std::nullopt;
@@ -199,7 +217,7 @@ std::optional<Object> Object::parse(Bytes line) {
     do {
       const auto key = cursor.take_text();
       if (!key || !cursor.take(':') || object.count_ == kMostMembers) return std::nullopt;
-      const auto member = cursor.take_value();
+      const auto member = cursor.take_value(nested);
       if (!member) return std::nullopt;
       object.members_[object.count_++] = {*key, member->value, member->kind};
     } while (cursor.take(','));

@@ -9,28 +9,14 @@
 
 #include "protocols/checked_line.h"
 #include "protocols/decimal.h"
+#include "protocols/samples_line.h"
 #include "protocols/text_fields.h"
 
 namespace navcal::protocols::water_linked {
 namespace {
 
-/// kCrc8Tables[k][b]: what byte b contributes to the remainder when k more bytes follow it, so that the look-ups
-/// of a slice do not wait for one another.
-constexpr std::size_t kCrc8Slices = 8;
-constexpr auto kCrc8Tables = [] {
-  std::array<std::array<std::uint8_t, 256>, kCrc8Slices> tables{};
-  for (unsigned byte = 0; byte < 256; ++byte) {
-    unsigned remainder = byte;
-    for (int bit = 0; bit < 8; ++bit)
-      remainder = (remainder & 0x80U) != 0 ? remainder << 1 ^ 0x107U : remainder << 1;
-    tables[0][byte] = static_cast<std::uint8_t>(remainder);
-  }
-  for (std::size_t k = 1; k < kCrc8Slices; ++k) {
-    for (std::size_t byte = 0; byte < 256; ++byte) tables[k][byte] = tables[0][tables[k - 1][byte]];
-  }
-  return tables;
-}();
-
+/// The longest line: wrz with nine covariances of full length.
+constexpr std::size_t kMaxLine = 320;
 constexpr std::size_t kNameLength = 3;
 
 /// Text between `wr?,` and `*` of a line with this name.
@@ -83,6 +69,68 @@ void append_shortest(std::string& line, double value) {
   line.append(digits, end);
 }
 
+/// An object and the end of its line. Brackets are counted, so that a line that was cut costs no other.
+Scan scan_object(const std::uint8_t* first, const std::uint8_t* last) {
+  const auto available = std::min(static_cast<std::size_t>(last - first), Scanner::kMaxFrameLength);
+  std::size_t depth = 0, length = 0;
+  bool in_text = false;
+  for (; length < available && (length == 0 || depth > 0); ++length) {
+    const std::uint8_t byte = first[length];
+    if (byte < ' ') return Scan::bad_checksum();
+    if (byte == '"') in_text = !in_text;
+    if (!in_text && byte == '{') ++depth;
+    if (!in_text && byte == '}') --depth;
+  }
+  const std::size_t inside = length;
+  if (depth == 0 && length < available && first[length] == '\r') ++length;
+  if (depth == 0 && length < available) {
+    const auto object = samples_line::Object::parse(Bytes(first, inside), true);
+    if (first[length] != '\n' || !object) return Scan::bad_checksum();
+    const auto* const type = object->find("type");
+    return Scan::frame(length + 1, type != nullptr ? FrameId(type->value) : kVelocityJson);
+  }
+  return available == Scanner::kMaxFrameLength
+             ? Scan::not_a_frame()
+             : Scan::incomplete(std::min(depth + 1, Scanner::kMaxFrameLength - available));
+}
+
+/// Members of an object in JSON, of which each must be there and in range.
+class JsonNumbers {
+ public:
+  explicit JsonNumbers(const samples_line::Object& object) : fields(object) {}
+  double operator()(std::string_view key, double most = 1e9) {
+    const auto number = fields.number(key, {-most, most});
+    if (!number) fields.refuse();
+    return number.value_or(0);
+  }
+  samples_line::Fields fields;
+};
+
+std::optional<Velocity> decode_json_velocity(const samples_line::Object& object) {
+  JsonNumbers number(object);
+  Velocity v;
+  v.velocity_m_s = {number("vx"), number("vy"), number("vz")};
+  v.altitude_m = number("altitude");
+  v.figure_of_merit_m_s = number("fom");
+  v.since_last_ms = number("time");
+  v.status = number.fields.integer("status", UINT32_MAX).value_or(0);
+  const auto valid = number.fields.boolean("velocity_valid");
+  v.valid = valid.value_or(false);
+  if (const auto* const covariance = object.find("covariance")) {
+    std::string flat;
+    for (const char c : covariance->value) {
+      if (c != '[' && c != ']' && c != ' ') flat += c == ',' ? ';' : c;
+    }
+    v.covariance_m2_s2 = read_covariance(flat);
+  }
+  constexpr double kMostTime_us = 9e15;
+  if (object.find("time_of_validity") != nullptr && object.find("time_of_transmission") != nullptr) {
+    v.valid_at_us = static_cast<std::int64_t>(number("time_of_validity", kMostTime_us));
+    v.transmitted_at_us = static_cast<std::int64_t>(number("time_of_transmission", kMostTime_us));
+  }
+  return valid && number.fields.all_good() ? std::optional(v) : std::nullopt;
+}
+
 std::optional<Velocity> decode_new(std::string_view text) {
   const auto f = split_exactly<11>(text);
   if (!f) return std::nullopt;
@@ -127,23 +175,19 @@ std::optional<Velocity> decode_old(std::string_view text) {
 }  // namespace
 
 std::uint8_t crc8(Bytes bytes) {
-  std::uint8_t crc = 0;
-  const auto& t = kCrc8Tables;
-  const std::uint8_t* p = bytes.data();
-  std::size_t left = bytes.size();
-  for (; left >= kCrc8Slices; left -= kCrc8Slices, p += kCrc8Slices) {
-    crc = static_cast<std::uint8_t>(t[7][crc ^ p[0]] ^ t[6][p[1]] ^ t[5][p[2]] ^ t[4][p[3]] ^ t[3][p[4]] ^
-                                    t[2][p[5]] ^ t[1][p[6]] ^ t[0][p[7]]);
+  unsigned crc = 0;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x80U) != 0 ? crc << 1 ^ 0x107U : crc << 1;
   }
-  for (; left > 0; --left, ++p) crc = t[0][crc ^ *p];
-  return crc;
+  return static_cast<std::uint8_t>(crc);
 }
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
-  const auto available = std::min(static_cast<std::size_t>(last - first), kMaxFrameLength);
+  if (*first == '{') return scan_object(first, last);
+  const auto available = std::min(static_cast<std::size_t>(last - first), kMaxLine);
   const auto need = [&](std::size_t missing) {
-    return available == kMaxFrameLength ? Scan::not_a_frame()
-                                        : Scan::incomplete(std::min(missing, kMaxFrameLength - available));
+    return available == kMaxLine ? Scan::not_a_frame() : Scan::incomplete(std::min(missing, kMaxLine - available));
   };
   if (available > 1 && first[1] != 'r') return Scan::not_a_frame();
   if (available < 4) return need(1);
@@ -164,27 +208,22 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
 }
 
 std::optional<Velocity> decode_velocity(Bytes frame) {
+  if (const auto object = samples_line::Object::parse(frame, true)) return decode_json_velocity(*object);
   if (const auto text = body_text(frame, kVelocity)) return decode_new(*text);
   if (const auto text = body_text(frame, kVelocityOld)) return decode_old(*text);
   return std::nullopt;
 }
 
 std::vector<std::uint8_t> encode(const Velocity& v) {
-  std::string line(v.covariance_m2_s2 ? kVelocity.view() : kVelocityOld.view());
-  if (!v.covariance_m2_s2) append_field(line, v.since_last_ms, 2);
+  std::string line(kVelocity.view());
   for (const double one : v.velocity_m_s) append_field(line, one, 3);
-  if (!v.covariance_m2_s2) {
-    append_field(line, v.figure_of_merit_m_s, 3);
-    append_field(line, v.altitude_m, 2);
-    line += v.valid ? ",y," : ",n,";
-    return encode_line(line + std::to_string(v.status));
-  }
   line += v.valid ? ",y" : ",n";
   append_field(line, v.altitude_m, 2);
   append_field(line, v.figure_of_merit_m_s, 3);
-  for (std::size_t i = 0; i < 9; ++i) {
-    line += i == 0 ? ',' : ';';
-    append_shortest(line, (*v.covariance_m2_s2)[i]);
+  char separator = ',';
+  for (const double one : v.covariance_m2_s2.value_or(std::array<double, 9>{})) {
+    line += std::exchange(separator, ';');
+    append_shortest(line, one);
   }
   line += ',' + std::to_string(v.valid_at_us.value_or(0)) + ',' + std::to_string(v.transmitted_at_us.value_or(0));
   append_field(line, v.since_last_ms, 2);
@@ -215,6 +254,17 @@ std::vector<std::uint8_t> encode(const Transducer& t) {
 }
 
 std::optional<Position> decode_position(Bytes frame) {
+  if (const auto object = samples_line::Object::parse(frame, true)) {
+    JsonNumbers number(*object);
+    const Position p{number("ts"),
+                     {number("x"), number("y"), number("z")},
+                     number("std"),
+                     number("roll"),
+                     number("pitch"),
+                     number("yaw"),
+                     number.fields.integer("status", UINT32_MAX).value_or(0)};
+    return number.fields.all_good() ? std::optional(p) : std::nullopt;
+  }
   const auto text = body_text(frame, kPosition);
   const auto f = text ? split_exactly<9>(*text) : std::nullopt;
   if (!f) return std::nullopt;
@@ -232,15 +282,6 @@ std::optional<Position> decode_position(Bytes frame) {
   }
   p.status = *status;
   return p;
-}
-
-std::vector<std::uint8_t> encode(const Position& p) {
-  std::string line(kPosition.view());
-  append_field(line, p.time_s, 3);
-  for (const double one : p.position_m) append_field(line, one, 2);
-  append_field(line, p.std_m, 2);
-  for (const double one : {p.roll_deg, p.pitch_deg, p.yaw_deg}) append_field(line, one, 1);
-  return encode_line(line + ',' + std::to_string(p.status));
 }
 
 std::vector<std::uint8_t> encode_line(std::string_view body) {

@@ -12,39 +12,42 @@
 #include "protocols/stream_parser.h"
 
 /// Water Linked DVL A50 and A125, serial protocol 2.3: lines `wr<letter>,field,...*hh<LF>`, CR before LF allowed,
-/// CRC-8 in lower case over all before `*`. Source: "Water Linked DVL protocol" (ICD section 10).
+/// CRC-8 in lower case over all before `*`. The network port sends one JSON object a line instead. Source: "Water
+/// Linked DVL protocol" (ICD section 10).
 namespace navcal::protocols::water_linked {
 
-inline constexpr FrameId kVelocity{"wrz"}, kVelocityOld{"wrx"}, kTransducer{"wru"}, kPosition{"wrp"};
+inline constexpr FrameId kVelocity{"wrz"}, kVelocityOld{"wrx"}, kTransducer{"wru"}, kPosition{"wrp"},
+    kVelocityJson{"velocity"}, kPositionJson{"position_local"};
 
 /// CRC-8: polynomial 0x07, start 0, not reflected, no final xor; "123456789" gives 0xF4.
 [[nodiscard]] std::uint8_t crc8(Bytes bytes);
 
-/// Lines from the instrument. The identifier is `wr` and the letter.
+/// Lines from the instrument. The identifier is `wr` and the letter, or the type of the object.
 struct Scanner {
-  static constexpr std::size_t kMaxFrameLength = 320;  ///< of wrz with nine covariances of full length
+  static constexpr std::size_t kMaxFrameLength = 2048;  ///< of a velocity in JSON, twice its usual length
 
   static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find(first, last, std::uint8_t{'w'});
+    while (first != last && *first != 'w' && *first != '{') ++first;
+    return first;
   }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;
 
-/// wrz or wrx. Axes are those of the mounted instrument: x forward, y to starboard, z down.
+/// wrz, wrx or JSON. Axes are those of the mounted instrument: x forward, y to starboard, z down.
 struct Velocity {
   std::array<double, 3> velocity_m_s{};
   bool valid = false;  ///< bottom lock; without it nothing else is to be used
   double altitude_m = 0;
   double figure_of_merit_m_s = 0;
-  std::optional<std::array<double, 9>> covariance_m2_s2;       ///< row by row; wrz only
-  std::optional<std::int64_t> valid_at_us, transmitted_at_us;  ///< clock of the instrument, UNIX time; wrz only
+  std::optional<std::array<double, 9>> covariance_m2_s2;       ///< row by row; not wrx
+  std::optional<std::int64_t> valid_at_us, transmitted_at_us;  ///< clock of the instrument, UNIX time; not wrx
   double since_last_ms = 0;                                    ///< since the velocity before
   std::uint32_t status = 0;                                    ///< 0; 1: too warm
   bool operator==(const Velocity&) const = default;
 };
 [[nodiscard]] std::optional<Velocity> decode_velocity(Bytes frame);
-/// wrz; wrx without a covariance. Velocities with three decimals, altitude with two.
+/// wrz. Velocities with three decimals, altitude with two.
 [[nodiscard]] std::vector<std::uint8_t> encode(const Velocity& velocity);
 
 /// wru: one beam.
@@ -58,7 +61,8 @@ struct Transducer {
 [[nodiscard]] std::optional<Transducer> decode_transducer(Bytes frame);
 [[nodiscard]] std::vector<std::uint8_t> encode(const Transducer& transducer);
 
-/// wrp: dead reckoning of the instrument itself, in its own local frame (north, east, down from the reset).
+/// wrp or JSON: dead reckoning of the instrument itself, in its own local frame (north, east, down from the
+/// reset).
 struct Position {
   double time_s = 0;
   std::array<double, 3> position_m{};
@@ -68,7 +72,6 @@ struct Position {
   bool operator==(const Position&) const = default;
 };
 [[nodiscard]] std::optional<Position> decode_position(Bytes frame);
-[[nodiscard]] std::vector<std::uint8_t> encode(const Position& position);
 
 /// Any line, with its checksum and CR LF: answers, and commands as `wcs,1500,,,`.
 [[nodiscard]] std::vector<std::uint8_t> encode_line(std::string_view body);

@@ -70,11 +70,6 @@ TEST(SpeedCheck, AnotherDeviceIsNotCalledAWrongSpeed) {
   check.bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   EXPECT_EQ(check.judge(skipped(text.size())), Verdict::no_frames);
   EXPECT_NE(check.message().find("motor-card"), std::string::npos);
-  const std::string json = R"({"time":125.1,"vx":0.1,"vy":0.0,"vz":0.0,"altitude":3.2,"type":"velocity"})";
-  SpeedCheck network(Protocol::water_linked, 115200);
-  for (int i = 0; i < 8; ++i) network.bytes({reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
-  EXPECT_EQ(network.judge(skipped(8 * json.size())), Verdict::no_frames);
-  EXPECT_NE(network.message().find("The JSON of its network port is not read"), std::string::npos);
 }
 
 TEST(SpeedCheck, SentencesWithoutAChecksumAreCalledThat) {

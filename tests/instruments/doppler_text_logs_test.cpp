@@ -96,12 +96,10 @@ TEST(WaterLinkedLog, AVelocityWithItsErrorAndItsAge) {
   velocity.transmitted_at_us = 1'600'000'000'000'000;
   collector.feed<water_linked::Parser>(water_linked::encode(velocity));
   EXPECT_FALSE(collector.measurements.at(1).age_ns);
-  velocity.covariance_m2_s2.reset();
-  collector.feed<water_linked::Parser>(water_linked::encode(velocity));
+  collector.feed<water_linked::Parser>(water_linked::encode_line("wrx,112.83,0.007,0.017,0.006,0.500,0.93,y,0"));
   EXPECT_FALSE(collector.measurements.at(2).age_ns);
   EXPECT_NEAR(collector.all<DvlSample>().at(2).bottom_velocity_std_m_s.value(), 0.5, 1e-9) << "figure of merit";
-  velocity.figure_of_merit_m_s = 0;
-  collector.feed<water_linked::Parser>(water_linked::encode(velocity));
+  collector.feed<water_linked::Parser>(water_linked::encode_line("wrx,112.83,0.007,0.017,0.006,0.000,0.93,y,0"));
   EXPECT_FALSE(collector.all<DvlSample>().at(3).bottom_velocity_std_m_s);
 }
 
@@ -123,14 +121,42 @@ TEST(WaterLinkedLog, ItsOwnTiltMakesTheAltitudeVertical) {
   Collector collector(log);
   const auto velocity_line = water_linked::encode(velocity);
   collector.feed<water_linked::Parser>(velocity_line);
-  water_linked::Position tilted;
-  tilted.roll_deg = 60;
-  collector.feed<water_linked::Parser>(water_linked::encode(tilted));
+  collector.feed<water_linked::Parser>(water_linked::encode_line("wrp,9.500,1.50,-2.00,0.25,0.50,60.0,0.0,0.0,0"));
   for (int i = 0; i < 20; ++i) collector.feed<water_linked::Parser>(velocity_line);
   const auto samples = collector.all<DvlSample>();
   EXPECT_NEAR(samples.at(0).altitude_m.value(), 10, 1e-9);
   EXPECT_NEAR(samples.at(1).altitude_m.value(), 5, 1e-9);
   EXPECT_NEAR(samples.at(20).altitude_m.value(), 10, 1e-9) << "wrp no longer comes";
+  const auto places = collector.all<ScalarSample>();
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[1].quantity.view(), "local y");
+  EXPECT_EQ(places[1].unit.view(), "m");
+  EXPECT_NEAR(places[1].value, -2, 1e-9);
+  EXPECT_NEAR(places[1].value_std.value(), 0.5, 1e-9);
+}
+
+TEST(WaterLinkedLog, TheNetworkPortGivesTheSame) {
+  WaterLinkedLog log;
+  Collector collector(log);
+  collector.feed<water_linked::Parser>(
+      R"({"ts":9.5,"x":0.5,"y":0,"z":0,"std":0.1,"roll":60,"pitch":0,"yaw":0,"type":"position_local","status":0})"
+      "\r\n"
+      R"({"time":125,"vx":0.123,"vy":-0.045,"vz":0.01,"fom":0.0012,"covariance":[[4e-4,0,0],[0,1e-4,0],[0,0,1e-4]],)"
+      R"("altitude":3.2,"transducers":[{"id":0}],"velocity_valid":true,"status":0,"type":"velocity",)"
+      R"("time_of_validity":1790000000000000,"time_of_transmission":1790000000120000})"
+      "\r\n"
+      R"({"response_to":"calibrate_gyro","success":true,"error_message":"","result":null,"type":"response"})"
+      "\r\n"
+      R"({"time":125,"vx":0,"velocity_valid":true,"type":"velocity"})"
+      "\r\n");
+  EXPECT_EQ(collector.verdicts,
+            (std::vector{Verdict::used, Verdict::used, Verdict::ignored, Verdict::out_of_range}));
+  EXPECT_EQ(collector.all<ScalarSample>().size(), 3U);
+  const auto sample = collector.all<DvlSample>().at(0);
+  expect_velocity(sample.bottom_velocity_m_s, {0.123, -0.045, 0.010});
+  EXPECT_NEAR(sample.bottom_velocity_std_m_s.value(), 0.02, 1e-9);
+  EXPECT_NEAR(sample.altitude_m.value(), 1.6, 1e-9) << "with its own tilt";
+  EXPECT_EQ(collector.measurements.back().age_ns, 120'000'000);
 }
 
 TEST(WaterLinkedLog, OtherLinesAreIgnoredAndImpossibleOnesCounted) {
@@ -141,7 +167,7 @@ TEST(WaterLinkedLog, OtherLinesAreIgnoredAndImpossibleOnesCounted) {
   EXPECT_EQ(collector.verdicts, (std::vector{Verdict::used, Verdict::ignored}));
   collector.feed<water_linked::Parser>(water_linked::encode_line("wrz,1,2"));
   EXPECT_EQ(collector.verdicts.back(), Verdict::out_of_range);
-  EXPECT_TRUE(collector.measurements.empty());
+  EXPECT_TRUE(collector.all<DvlSample>().empty());
 }
 
 }  // namespace

@@ -27,14 +27,27 @@ inline water_linked::Velocity random_water_linked_velocity(Random& random) {
   velocity.figure_of_merit_m_s = in_decimals(random, 2, 1000);
   velocity.since_last_ms = in_decimals(random, 500, 100);
   velocity.status = static_cast<std::uint32_t>(below(random, 2));
-  if (chance(random)) {
-    std::array<double, 9> covariance{};
-    for (double& one : covariance) one = static_cast<double>(below(random, 1000)) * 1e-9;
-    velocity.covariance_m2_s2 = covariance;
-    velocity.valid_at_us = static_cast<std::int64_t>(below(random, 1'700'000'000'000'000));
-    velocity.transmitted_at_us = *velocity.valid_at_us + 9000;
-  }
+  std::array<double, 9> covariance{};
+  for (double& one : covariance) one = static_cast<double>(below(random, 1000)) * 1e-9;
+  velocity.covariance_m2_s2 = covariance;
+  velocity.valid_at_us = static_cast<std::int64_t>(below(random, 1'700'000'000'000'000));
+  velocity.transmitted_at_us = *velocity.valid_at_us + 9000;
   return velocity;
+}
+
+/// A velocity as the network port sends it, in one of its two styles.
+inline std::string water_linked_json(bool with_blanks) {
+  std::string line =
+      R"({"time":125.1,"vx":0.123,"vy":-0.045,"vz":0.010,"fom":0.0012,"covariance":[[4e-06,0,-1e-7],)"
+      R"([0,1.1e-06,0],[0,0,1e-06]],"altitude":3.21,"transducers":[)";
+  for (int i = 0; i < 4; ++i)
+    line += std::string(i == 0 ? "" : ",") + R"({"id":)" + std::to_string(i) +
+            R"(,"velocity":0.01,"distance":3.3,"rssi":-31,"nsd":-90,"beam_valid":true})";
+  line += R"(],"velocity_valid":true,"status":0,"format":"json_v3.1","type":"velocity",)"
+          R"("time_of_validity":1790000000000000,"time_of_transmission":1790000000120000})";
+  std::string out;
+  for (const char c : line) out += with_blanks && (c == ':' || c == ',') ? std::string{c, ' '} : std::string{c};
+  return out + (with_blanks ? "\n" : "\r\n");
 }
 
 template <>
@@ -44,8 +57,14 @@ inline Buffer random_frame<pd6::Scanner>(Random& random) {
 }
 template <>
 inline Buffer random_frame<water_linked::Scanner>(Random& random) {
-  if (chance(random)) return water_linked::encode(random_water_linked_velocity(random));
-  return water_linked::encode_line("wra");
+  switch (below(random, 4)) {
+    case 0: return water_linked::encode_line("wra");
+    case 1: {
+      const std::string line = water_linked_json(chance(random));
+      return {line.begin(), line.end()};
+    }
+    default: return water_linked::encode(random_water_linked_velocity(random));
+  }
 }
 
 }  // namespace navcal::protocols::test

@@ -85,6 +85,43 @@ TEST(WaterLinked, LinesOfTheDocumentation) {
   EXPECT_EQ(old->altitude_m, -1);
 }
 
+TEST(WaterLinked, ObjectsOfTheNetworkPort) {
+  for (const bool with_blanks : {false, true}) {
+    const std::string line = water_linked_json(with_blanks);
+    const auto seen = all_at_once<water_linked::Scanner>(bytes_of(line));
+    ASSERT_EQ(seen.frames.size(), 1U);
+    EXPECT_EQ(seen.frames[0].id, water_linked::kVelocityJson);
+    const auto velocity = water_linked::decode_velocity(bytes_of(line));
+    ASSERT_TRUE(velocity);
+    EXPECT_EQ(velocity->velocity_m_s, (std::array{0.123, -0.045, 0.010}));
+    EXPECT_TRUE(velocity->valid);
+    EXPECT_EQ(velocity->altitude_m, 3.21);
+    EXPECT_EQ(velocity->figure_of_merit_m_s, 0.0012);
+    EXPECT_EQ(velocity->since_last_ms, 125.1);
+    EXPECT_EQ(velocity->covariance_m2_s2, (std::array{4e-6, 0.0, -1e-7, 0.0, 1.1e-6, 0.0, 0.0, 0.0, 1e-6}));
+    EXPECT_EQ(velocity->valid_at_us, 1'790'000'000'000'000);
+    EXPECT_EQ(velocity->transmitted_at_us, 1'790'000'000'120'000);
+    std::string damaged = line;
+    damaged.replace(damaged.find("-0.045"), 6, "\"none\"");
+    EXPECT_FALSE(water_linked::decode_velocity(bytes_of(damaged)));
+  }
+  const std::string position =
+      R"({"ts":49056.809,"x":0.41,"y":0.15,"z":1.23,"std":0.4,"roll":53.9,"pitch":13.0,"yaw":19.3,)"
+      R"("type":"position_local","status":0,"format":"json_v3.1"})"
+      "\r\n";
+  EXPECT_EQ(water_linked::decode_position(bytes_of(position)),
+            (water_linked::Position{49056.809, {0.41, 0.15, 1.23}, 0.4, 53.9, 13.0, 19.3, 0}));
+  const std::string answer = R"({"response_to":"get_config","success":true,"result":{"a":[]},"type":"response"})"
+                             "\n";
+  // Lines that were cut, in the middle and in a text, cost themselves alone.
+  const std::string velocity = water_linked_json(false);
+  const auto seen = all_at_once<water_linked::Scanner>(
+      bytes_of(velocity.substr(0, 300) + position + velocity.substr(0, 12) + "\n" + answer + position));
+  ASSERT_EQ(seen.frames.size(), 3U);
+  EXPECT_EQ(seen.frames[0].id, water_linked::kPositionJson);
+  EXPECT_EQ(seen.frames[1].id.view(), "response");
+}
+
 TEST(WaterLinked, WhatIsEncodedIsDecoded) {
   Random random(5);
   for (int i = 0; i < 300; ++i) {
@@ -93,8 +130,9 @@ TEST(WaterLinked, WhatIsEncodedIsDecoded) {
   }
   const water_linked::Transducer beam{2, -0.5, 1.25, -62, -104};
   EXPECT_EQ(water_linked::decode_transducer(water_linked::encode(beam)), beam);
-  const water_linked::Position position{49056.809, {0.41, 0.15, 1.23}, 0.4, 53.9, 13.0, 19.3, 0};
-  EXPECT_EQ(water_linked::decode_position(water_linked::encode(position)), position);
+  EXPECT_EQ(water_linked::decode_position(
+                water_linked::encode_line("wrp,49056.809,0.41,0.15,1.23,0.4,53.9,13.0,19.3,0")),
+            (water_linked::Position{49056.809, {0.41, 0.15, 1.23}, 0.4, 53.9, 13.0, 19.3, 0}));
 }
 
 TEST(DopplerText, FramesDoNotDependOnTheCuts) {
