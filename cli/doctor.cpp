@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <memory>
 
@@ -14,7 +15,7 @@ namespace {
 
 struct Arguments {
   std::string configuration = "/etc/navcal/navcald.toml";
-  bool json = false;
+  bool json = false, fix = false;
 };
 
 /// Settings of the file; nullopt with findings on its problems when it cannot be read.
@@ -32,12 +33,15 @@ std::optional<config::Settings> read_configuration(const std::string& file, Find
 }
 
 void run(const Arguments& arguments) {
+  if (arguments.fix && ::geteuid() != 0)
+    throw analysis::Failure(analysis::Exit::failed, "--fix writes to /etc, as root: sudo navcal doctor --fix");
   const Account account = service_account();
   Findings findings;
   const auto read = read_configuration(arguments.configuration, findings);
   const config::Settings settings = read.value_or(config::Settings{});
   for (const auto& port : settings.ports) findings.push_back(check_port(port, account));
   findings.push_back(check_status_port(settings.status));
+  if (read && arguments.fix) findings.push_back(fix_log_folder(settings.log, account));
   if (read) findings.push_back(check_log_folder(settings.log, account));
   findings.push_back(check_clock());
   findings.push_back(check_limits(settings));
@@ -63,6 +67,9 @@ void add_doctor(CLI::App& app) {
       ->type_name("FILE")
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "one object with all checks");
+  command->add_flag(
+      "--fix", arguments->fix,
+      "let the service write to a log folder on another file system: as root, a drop-in of its unit");
   command->footer(
       "Looks at the configuration, at each port (there, permitted, held by another program, latency of its "
       "adapter),\n"

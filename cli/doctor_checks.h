@@ -8,8 +8,8 @@
 #include "cli/doctor_finding.h"
 #include "config/settings.h"
 
-// One function for each thing that `navcal doctor` looks at. None of them changes anything, but for a file in the
-// log folder that is made to time it and removed again.
+// One function for each thing that `navcal doctor` looks at. The checks change nothing, but for a file in the log
+// folder that is made to time it and removed again.
 namespace navcal::cli {
 
 /// Checks where a port is, who may open it, who holds it, and how long its adapter delays bytes.
@@ -25,6 +25,11 @@ namespace navcal::cli {
 /// `etc` stands for this folder of the system.
 [[nodiscard]] Finding check_log_folder(const config::LogSettings& settings, const Account& account,
                                        const std::filesystem::path& etc = "/etc");
+
+/// Writes the drop-in of navcald.service for a log folder that the shipped unit keeps it from. A file that is
+/// there is left alone. Throws std::system_error.
+[[nodiscard]] Finding fix_log_folder(const config::LogSettings& settings, const Account& account,
+                                     const std::filesystem::path& etc = "/etc");
 
 /// Checks whether UTC is known.
 [[nodiscard]] Finding check_clock();

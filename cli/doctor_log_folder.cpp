@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "cli/doctor_checks.h"
+#include "cli/result_file.h"
 #include "record/log/disk.h"
 
 namespace navcal::cli {
@@ -54,6 +55,25 @@ bool service_may_write(std::string folder, const std::filesystem::path& etc) {
 
 }  // namespace
 
+Finding fix_log_folder(const config::LogSettings& settings, const Account& account,
+                       const std::filesystem::path& etc) {
+  std::string name = settings.directory.string();
+  const std::string folder = name;
+  if (!settings.enabled || account.name != kServiceUser || service_may_write(folder, etc))
+    return good("fix", "nothing to write: no service is kept from the log folder");
+  std::replace(name.begin(), name.end(), '/', '-');
+  const auto file = etc / "systemd/system/navcald.service.d" / ("log" + name + ".conf");
+  constexpr std::string_view kMeantBySystemd = " \t\n\"'\\%$";
+  if (std::filesystem::exists(file) || folder.find_first_of(kMeantBySystemd) != std::string::npos)
+    return fault("fix", file.string() + " is there and stays as it is, or the folder's name needs an escape",
+                 "`sudo systemctl edit navcald`");
+  std::filesystem::create_directories(file.parent_path());
+  write_result(file, fmt::format("[Unit]\nRequiresMountsFor={0}\n\n[Service]\nReadWritePaths={0}\n", folder));
+  return good("fix", fmt::format("{} is new: navcald.service waits for the mount of {} and may write there. It "
+                                 "holds after `sudo systemctl daemon-reload && sudo systemctl restart navcald`",
+                                 file.string(), folder));
+}
+
 Finding check_log_folder(const config::LogSettings& settings, const Account& account,
                          const std::filesystem::path& etc) {
   const std::string topic = "log";
@@ -71,7 +91,8 @@ Finding check_log_folder(const config::LogSettings& settings, const Account& acc
   if (account.name == kServiceUser && !service_may_write(folder, etc)) {
     return fault(
         topic, folder + ": navcald.service may write to /var/lib/navcal only",
-        fmt::format("`sudo systemctl edit navcald`: [Service] ReadWritePaths={0} and [Unit] RequiresMountsFor={0}",
+        fmt::format("`sudo navcal doctor --fix` writes a drop-in: [Service] ReadWritePaths={0} and [Unit] "
+                    "RequiresMountsFor={0}",
                     folder));
   }
   const auto free_bytes = record::real_disk().free_bytes(settings.directory, error);

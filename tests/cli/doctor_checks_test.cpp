@@ -218,6 +218,30 @@ TEST_F(DoctorLogFolder, TheShippedUnitMustBeAllowedToWriteThere) {
       << "no service";
 }
 
+TEST_F(DoctorLogFolder, TheDropInIsWrittenOnceAndNothingIsOverwritten) {
+  const navcal::test::TemporaryFolder etc;
+  const Account service{kServiceUser, ::geteuid(), {}};
+  const fs::path drop_ins = etc / "systemd/system/navcald.service.d";
+  EXPECT_EQ(fix_log_folder(settings_, {"somebody", ::geteuid(), {}}, etc.path()).severity, Severity::good);
+  EXPECT_FALSE(fs::exists(drop_ins)) << "no service";
+  const Finding fixed = fix_log_folder(settings_, service, etc.path());
+  EXPECT_EQ(fixed.severity, Severity::good) << fixed.found;
+  ASSERT_TRUE(fs::exists(drop_ins));
+  const fs::path file = fs::directory_iterator(drop_ins)->path();
+  EXPECT_TRUE(holds(fixed.found, file.string())) << fixed.found;
+  EXPECT_TRUE(holds(fixed.found, "daemon-reload")) << fixed.found;
+  const std::string folder = folder_.path().string();
+  EXPECT_EQ(navcal::test::read_file(file),
+            "[Unit]\nRequiresMountsFor=" + folder + "\n\n[Service]\nReadWritePaths=" + folder + "\n");
+  EXPECT_EQ(check_log_folder(settings_, service, etc.path()).severity, Severity::good);
+  EXPECT_TRUE(holds(fix_log_folder(settings_, service, etc.path()).found, "nothing to write"));
+  std::ofstream(file) << "# mine\n";
+  EXPECT_EQ(fix_log_folder(settings_, service, etc.path()).severity, Severity::fault);
+  EXPECT_EQ(navcal::test::read_file(file), "# mine\n");
+  settings_.directory = folder_ / "a card";
+  EXPECT_EQ(fix_log_folder(settings_, service, etc.path()).severity, Severity::fault) << "systemd reads two paths";
+}
+
 TEST_F(DoctorLogFolder, TooLittleRoomAndTooSlowAMediumAreWarnings) {
   settings_.sync_interval_s = 0;
   EXPECT_EQ(check().severity, Severity::warning);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -39,6 +40,16 @@ TEST_F(Doctor, WhereAllIsWellItSaysSo) {
   const auto outcome = run(healthy());
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   EXPECT_NE(outcome.output.find("ok       port compass"), std::string::npos) << outcome.output;
+}
+
+TEST_F(Doctor, OnlyRootMayFix) {
+  const auto outcome = run(healthy(), {"--fix"});
+  EXPECT_EQ(outcome.status, ::geteuid() == 0 ? 0 : 1) << outcome.output;
+  if (::geteuid() == 0) {
+    EXPECT_NE(outcome.output.find("fix"), std::string::npos) << outcome.output;
+  } else {
+    EXPECT_NE(outcome.message.find("sudo navcal doctor --fix"), std::string::npos) << outcome.message;
+  }
 }
 
 TEST_F(Doctor, AFaultHasItsMendAndTheStatus) {
