@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "calib/magnetometer/ellipse_estimator.h"
-#include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/thesis/circle_moments.h"
-#include "calib/thesis/distorted_field.h"
-#include "calib/thesis/ellipse_bound.h"
+#include "tests/calib/level_field.h"
 #include "tests/calib/thesis_paths.h"
 
 namespace navcal::bench {

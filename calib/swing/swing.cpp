@@ -145,11 +145,6 @@ std::optional<double> Swing::deviation_rad(double measured_heading_rad) const {
   return base::wrapped((*table)[i] + (place - below) * rise_rad);
 }
 
-std::optional<double> Swing::remaining_s() const {
-  if (!rest_) return std::nullopt;
-  return std::max(0.0, parameters_.dwell_s - (rest_->last_s - rest_->begin_s));
-}
-
 Judgement Swing::judgement() const {
   Judgement judgement;
   const auto seen = headings();

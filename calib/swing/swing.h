@@ -57,8 +57,6 @@ class Swing {
   [[nodiscard]] std::optional<double> deviation_rad(double measured_heading_rad) const;
   /// A..E; nullopt with fewer than five headings.
   [[nodiscard]] std::optional<Estimate> estimate() const;
-  /// Seconds still to rest on the present heading, 0 when it is enough; nullopt where no rest counts.
-  [[nodiscard]] std::optional<double> remaining_s() const;
   [[nodiscard]] Judgement judgement() const;
   void archive(Archive& archive);
 

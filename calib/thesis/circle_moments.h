@@ -14,11 +14,6 @@ struct CircleMoments {
   Eigen::Vector2d centre_uT = Eigen::Vector2d::Zero();
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Identity();  ///< of (4.18)
 
-  /// (4.18).
-  [[nodiscard]] Eigen::Vector2d corrected_uT(const Eigen::Vector2d& field_uT) const {
-    return matrix * (field_uT - centre_uT);
-  }
-
   /// Nullopt for less than two points.
   [[nodiscard]] static std::optional<CircleMoments> fit(std::span<const Eigen::Vector2d> level_field_uT);
 };

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/angles.h"
-#include "calib/turn/turn_integrator.h"
 
 namespace navcal::calib::thesis {
 
@@ -22,35 +21,6 @@ EllipseShape distorted_circle(const FieldDistortion& distortion) {
 
 EllipseShape figure_4_11() { return distorted_circle({{2, 2}, 0.5, 120}); }
 EllipseShape figure_4_12() { return distorted_circle({{2, -4}, 0.8, 10}); }
-
-std::vector<FieldReading> level_field_on(const std::vector<TruePoint>& path, const EllipseShape& shape,
-                                         const Noise& noise, Random& random) {
-  const std::vector<Measured> measured = measure(path, Deviation::Zero(), noise, random);
-  std::normal_distribution<double> normal;
-  TurnIntegrator integrator({});
-  std::vector<FieldReading> readings;
-  readings.reserve(path.size());
-  const auto take = [&] {
-    while (const auto step = integrator.next()) {
-      FieldReading reading;
-      const Eigen::Vector2d field = shape.at(path[readings.size()].heading_rad) +
-                                    noise.field_uT * Eigen::Vector2d(normal(random), normal(random));
-      reading.field_body_uT.head<2>() = field;
-      reading.turn = *step;
-      readings.push_back(reading);
-    }
-  };
-  for (const Measured& m : measured) {
-    RateReading rate = rate_of(m);
-    rate.yaw_rate_b_rad_s = m.rate_rad_s.z();
-    integrator.update(compass_of(m));
-    integrator.update(rate);
-    take();
-  }
-  integrator.begin_segment();
-  take();
-  return readings;
-}
 
 double heading_error_rad(const FieldCorrection& found, const EllipseShape& truth, double heading_rad) {
   Eigen::Vector3d field = Eigen::Vector3d::Zero();

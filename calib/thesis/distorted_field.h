@@ -2,12 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "calib/correction.h"
 #include "calib/magnetometer/ellipse_shape.h"
-#include "calib/thesis/measured_path.h"
-#include "calib/turn/turn_step.h"
 
 /// The distorted magnetic fields of the thesis (table 4.2), and headings made of them.
 namespace navcal::calib::thesis {
@@ -26,17 +23,6 @@ struct FieldDistortion {
 [[nodiscard]] EllipseShape distorted_circle(const FieldDistortion& distortion);
 [[nodiscard]] EllipseShape figure_4_11();
 [[nodiscard]] EllipseShape figure_4_12();
-
-struct FieldReading {
-  Eigen::Vector3d field_body_uT = Eigen::Vector3d::Zero();
-  double roll_rad = 0, pitch_rad = 0;
-  TurnStep turn;  ///< by the thesis's gyro
-};
-
-/// The level field of `shape` along a path, with noise; the gyro is the thesis's (2.11).
-[[nodiscard]] std::vector<FieldReading> level_field_on(const std::vector<TruePoint>& path,
-                                                       const EllipseShape& shape, const Noise& noise,
-                                                       Random& random);
 
 /// Error of the heading that `found` makes of the field without noise at a true heading, radians.
 [[nodiscard]] double heading_error_rad(const FieldCorrection& found, const EllipseShape& truth,

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "calib/magnetometer/ellipse_estimator.h"
-#include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/thesis/measured_path.h"
 
 /// Accuracy of an ellipse with the noise of the thesis: root-mean-square error of heading over the circle by the
@@ -12,12 +11,10 @@
 namespace navcal::calib::thesis {
 
 [[nodiscard]] EllipseEstimator::Parameters ellipse_parameters();
-/// The gyro known exactly, or unknown.
-[[nodiscard]] EllipseGyro::Parameters gyro_parameters(bool unknown);
 
 /// Every heading free.
 [[nodiscard]] double ellipse_bound_deg(const std::vector<TruePoint>& path, const EllipseShape& truth);
-/// Headings tied by the gyro with its noise: dense information on all unknowns, inverted as it is.
-[[nodiscard]] double gyro_bound_deg(const std::vector<TruePoint>& path, const EllipseShape& truth, bool unknown);
+/// The error that a shape with this covariance makes.
+[[nodiscard]] double rms_heading_deg(const EllipseShape& shape, const EllipseShape::Matrix& covariance);
 
 }  // namespace navcal::calib::thesis

@@ -228,11 +228,6 @@ double TurnFilter::heading_rad() const {
   return base::wrapped(-track_(0, 0) + track_.row(0).tail<5>().dot(solution_.departure));
 }
 
-double TurnFilter::heading_variance_rad2() const {
-  const Eigen::Matrix<double, 1, 5> by_constants = track_.row(0).tail<5>();
-  return covariance_(0, 0) + (by_constants * solution_.covariance).dot(by_constants);
-}
-
 void TurnFilter::archive(Archive& archive) {
   archive.tag("turn_filter 2");
   archive(prior_.mean, prior_.covariance, prior_.sought, prior_information_);

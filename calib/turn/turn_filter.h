@@ -50,9 +50,8 @@ class TurnFilter {
   /// Log-likelihood of all readings, up to a constant that depends on neither walk nor noise. The constants
   /// sought are left open.
   [[nodiscard]] double log_likelihood() const { return log_likelihood_; }
-  /// Heading at the last reading, less A, and its variance.
+  /// Heading at the last reading, less A.
   [[nodiscard]] double heading_rad() const;
-  [[nodiscard]] double heading_variance_rad2() const;
   [[nodiscard]] std::uint64_t readings() const { return readings_; }  ///< that told something
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }  ///< not finite, or no time between them
 

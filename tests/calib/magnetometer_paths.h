@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calib/magnetometer/magnetometer_estimate.h"
-#include "calib/thesis/distorted_field.h"
+#include "tests/calib/level_field.h"
 #include "tests/calib/thesis_paths.h"
 
 /// The magnetometer distortions of the thesis carried on its paths (THESIS 11.4), and motions in the Earth's field

@@ -103,7 +103,7 @@ double largest_residual_deg(const CircleMoments& moments, const Distortion& d) {
   double largest = 0;
   for (int k = 0; k < 3600; ++k) {
     const double psi = k * base::kRadiansPerDegree / 10;
-    const Eigen::Vector2d field = moments.corrected_uT(distorted(d, psi));
+    const Eigen::Vector2d field = moments.matrix * (distorted(d, psi) - moments.centre_uT);  // (4.18)
     largest = std::max(
         largest, std::abs(std::remainder(std::atan2(-field.y(), field.x()) - psi, 360 * base::kRadiansPerDegree)));
   }
