@@ -65,6 +65,13 @@ TEST_F(WrongUsage, NoOutputIsWrittenOverAnother) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "y.cap"));
 }
 
+TEST_F(WrongUsage, ARecordingIsNoCheckOfItself) {
+  ASSERT_EQ(run("simulate --mission survey --seconds 20 -o a.cap").status, 0);
+  std::filesystem::copy_file(folder_ / "a.cap", folder_ / "b.cap");
+  expect_refused("gap a.cap --holdout b.cap", 2, "19 s of it are in a.cap as well");
+  expect_refused("gap a.cap b.cap", 2, "must be of different missions");
+}
+
 TEST_F(WrongUsage, ANameThatPromisesAnotherKindOfFileIsRefused) {
   expect_refused("simulate --mission survey --seconds 5 -o a.mcap", 2, "navcal log import");
   ASSERT_EQ(run("simulate --mission survey --seconds 5 -o a.cap").status, 0);
