@@ -2,9 +2,12 @@
 #include "api/sample_of.h"
 
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "instruments/sample_fields.h"
 #include "protocols/frame.h"
 
 namespace navcal::api {
@@ -16,115 +19,56 @@ Stamp stamp_of(const instruments::Stamp& stamp) {
 
 CalibrationName name_of_calibration(const instruments::CalibrationName& name) { return {name.number, name.sum}; }
 
-Fix fix_of(instruments::Fix fix) {
-  switch (fix) {
-    case instruments::Fix::none: return Fix::none;
-    case instruments::Fix::fix_2d: return Fix::fix_2d;
-    case instruments::Fix::fix_3d: return Fix::fix_3d;
-    case instruments::Fix::propagated: return Fix::propagated;
-    case instruments::Fix::hold: return Fix::hold;
-    case instruments::Fix::acquiring: return Fix::acquiring;
-    case instruments::Fix::bad_geometry: return Fix::bad_geometry;
+static_assert(static_cast<int>(Fix::bad_geometry) == static_cast<int>(instruments::Fix::bad_geometry));
+static_assert(static_cast<int>(VelocityFrame::earth) == static_cast<int>(instruments::VelocityFrame::earth));
+
+/// A member as the library has it: the same type, the counterpart of a name, or a text.
+template <class To, class From>
+To member_of(const From& from) {
+  if constexpr (std::is_enum_v<From>) {
+    return static_cast<To>(from);
+  } else if constexpr (std::is_same_v<To, std::string>) {
+    return std::string(from.view());
+  } else {
+    return from;
   }
-  return Fix::none;
+}
+
+template <class To, class From>
+To with_same_members(const From& from) {
+  To to;
+  if constexpr (requires { from.card; }) {
+    if (from.card) to.card.emplace();
+  }
+  constexpr auto kFrom = instruments::kKind<From>.fields;
+  constexpr auto kTo = instruments::kKind<To>.fields;
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto copy = [&](const auto& source, const auto& target) {
+      const auto* const value = instruments::member_of(from, source);
+      auto* const place = instruments::member_of(to, target);
+      if (value != nullptr) *place = member_of<std::decay_t<decltype(*place)>>(*value);
+    };
+    (copy(std::get<I>(kFrom), std::get<I>(kTo)), ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(kFrom)>>{});
+  if constexpr (requires { from.time_utc_ns; }) to.time_utc_ns = from.time_utc_ns;
+  return to;
 }
 
 /// The public counterpart of each kind of sample.
 struct MeasurementOf {
   using Result = std::optional<Measurement>;
 
-  Result operator()(const instruments::CompassSample& s) const {
-    return CompassSample{.heading_rad = s.heading_rad,
-                         .heading_is_true = s.heading_is_true,
-                         .heading_calibrated_rad = s.heading_calibrated_rad,
-                         .pitch_rad = s.pitch_rad,
-                         .roll_rad = s.roll_rad,
-                         .tilt_by_accelerometers = s.tilt_by_accelerometers,
-                         .field_body_uT = s.field_body_uT,
-                         .dip_rad = s.dip_rad,
-                         .turn_rate_rad_s = s.turn_rate_rad_s,
-                         .temperature_C = s.temperature_C,
-                         .error = s.error,
-                         .heading_std_rad = s.heading_std_rad,
-                         .tilt_std_rad = s.tilt_std_rad,
-                         .field_std_uT = s.field_std_uT};
-  }
-  Result operator()(const instruments::ImuSample& s) const {
-    ImuSample imu{.rate_rad_s = s.rate_rad_s,
-                  .yaw_rate_b_rad_s = s.yaw_rate_b_rad_s,
-                  .yaw_rate_calibrated_rad_s = s.yaw_rate_calibrated_rad_s,
-                  .yaw_rate_b_calibrated_rad_s = s.yaw_rate_b_calibrated_rad_s,
-                  .specific_force_m_s2 = s.specific_force_m_s2,
-                  .depth_m = s.depth_m,
-                  .temperature_C = s.temperature_C,
-                  .over_range = s.over_range,
-                  .card = {},
-                  .rate_std_rad_s = s.rate_std_rad_s,
-                  .specific_force_std_m_s2 = s.specific_force_std_m_s2,
-                  .depth_std_m = s.depth_std_m};
-    if (s.card) imu.card = CardState{s.card->sequence, s.card->leak_forward, s.card->leak_aft, s.card->low_supply};
-    return imu;
-  }
-  Result operator()(const instruments::GpsSample& s) const {
-    return GpsSample{.time_utc_ns = s.time_utc_ns,
-                     .time_corrected = s.time_corrected,
-                     .leap_known = s.leap_known,
-                     .fix = fix_of(s.fix),
-                     .latitude_rad = s.latitude_rad,
-                     .longitude_rad = s.longitude_rad,
-                     .height_m = s.height_m,
-                     .height_msl_m = s.height_msl_m,
-                     .speed_m_s = s.speed_m_s,
-                     .course_rad = s.course_rad,
-                     .climb_m_s = s.climb_m_s,
-                     .dop = s.dop,
-                     .visible = s.visible,
-                     .tracked = s.tracked,
-                     .position_std_m = s.position_std_m,
-                     .height_std_m = s.height_std_m,
-                     .velocity_std_m_s = s.velocity_std_m_s};
-  }
+  Result operator()(const instruments::CompassSample& s) const { return with_same_members<CompassSample>(s); }
+  Result operator()(const instruments::ImuSample& s) const { return with_same_members<ImuSample>(s); }
+  Result operator()(const instruments::GpsSample& s) const { return with_same_members<GpsSample>(s); }
   Result operator()(const instruments::SkySample& /*s*/) const { return std::nullopt; }
-  Result operator()(const instruments::MotorSample& s) const {
-    return MotorSample{.rpm_commanded = s.rpm_commanded,
-                       .rpm = s.rpm,
-                       .fins_rad = s.fins_rad,
-                       .current_A = s.current_A,
-                       .sequence = s.sequence,
-                       .fins_std_rad = s.fins_std_rad,
-                       .current_std_A = s.current_std_A};
-  }
-  Result operator()(const instruments::AltimeterSample& s) const {
-    return AltimeterSample{.altitude_m = s.altitude_m, .altitude_std_m = s.altitude_std_m};
-  }
-  Result operator()(const instruments::PowerSample& s) const {
-    return PowerSample{.voltage_V = s.voltage_V, .current_A = s.current_A};
-  }
-  Result operator()(const instruments::DvlSample& s) const {
-    const bool is_body = s.frame == instruments::VelocityFrame::body;
-    return DvlSample{.frame = is_body ? VelocityFrame::body : VelocityFrame::earth,
-                     .bottom_velocity_m_s = s.bottom_velocity_m_s,
-                     .bottom_velocity_std_m_s = s.bottom_velocity_std_m_s,
-                     .water_velocity_m_s = s.water_velocity_m_s,
-                     .water_velocity_std_m_s = s.water_velocity_std_m_s,
-                     .altitude_m = s.altitude_m,
-                     .altitude_std_m = s.altitude_std_m,
-                     .temperature_C = s.temperature_C,
-                     .sound_speed_m_s = s.sound_speed_m_s};
-  }
-  Result operator()(const instruments::DepthSample& s) const {
-    return DepthSample{.depth_m = s.depth_m,
-                       .depth_std_m = s.depth_std_m,
-                       .pressure_Pa = s.pressure_Pa,
-                       .pressure_std_Pa = s.pressure_std_Pa,
-                       .temperature_C = s.temperature_C};
-  }
-  Result operator()(const instruments::ScalarSample& s) const {
-    return ScalarSample{.quantity = std::string(s.quantity.view()),
-                        .unit = std::string(s.unit.view()),
-                        .value = s.value,
-                        .value_std = s.value_std};
-  }
+  Result operator()(const instruments::MotorSample& s) const { return with_same_members<MotorSample>(s); }
+  Result operator()(const instruments::AltimeterSample& s) const { return with_same_members<AltimeterSample>(s); }
+  Result operator()(const instruments::PowerSample& s) const { return with_same_members<PowerSample>(s); }
+  Result operator()(const instruments::DvlSample& s) const { return with_same_members<DvlSample>(s); }
+  Result operator()(const instruments::DepthSample& s) const { return with_same_members<DepthSample>(s); }
+  Result operator()(const instruments::ScalarSample& s) const { return with_same_members<ScalarSample>(s); }
 };
 
 }  // namespace

@@ -4,209 +4,127 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <numbers>
 #include <string>
+#include <type_traits>
 
 #include "base/angles.h"
+#include "instruments/sample_fields.h"
 #include "protocols/samples_line.h"
 
 namespace navcal::instruments {
 namespace {
 
-using protocols::samples_line::Bounds;
 using protocols::samples_line::Fields;
 using protocols::samples_line::Object;
 
-// Beyond these a value cannot be one of a vehicle on this planet.
-constexpr double kPi = std::numbers::pi;
-constexpr Bounds kHeading_rad{-2 * kPi, 2 * kPi}, kTilt_rad{-kPi, kPi}, kDip_rad{-kPi / 2, kPi / 2};
-constexpr Bounds kFin_rad{-kPi, kPi}, kRate_rad_s{-100, 100}, kForce_m_s2{-2000, 2000}, kField_uT{-10'000, 10'000};
-constexpr Bounds kTemperature_C{-273.15, 1000}, kDepth_m{-100, 12'000}, kHeight_m{-12'000, 100'000};
-constexpr Bounds kPressure_Pa{0, 2e8}, kSpeed_m_s{-1000, 1000}, kGroundSpeed_m_s{0, 1000}, kAltitude_m{0, 12'000};
-constexpr Bounds kLatitude_deg{-90, 90}, kLongitude_deg{-180, 180}, kDop{0, 1e6}, kSound_m_s{300, 3000};
-constexpr Bounds kTurns_min{-100'000, 100'000}, kVoltage_V{0, 1000}, kCurrent_A{-1000, 1000};
-constexpr Bounds kError{0, 1e6}, kAny{-1e300, 1e300};
-
-std::optional<double> heading(Fields& fields, std::string_view key) {
-  const auto angle_rad = fields.number(key, kHeading_rad);
-  return angle_rad ? std::optional(base::as_heading(*angle_rad)) : std::nullopt;
-}
-
-std::optional<double> radians(const std::optional<double>& angle_deg) {
-  return angle_deg ? std::optional(*angle_deg * base::kRadiansPerDegree) : std::nullopt;
-}
-
-std::optional<std::uint8_t> count(Fields& fields, std::string_view key) {
-  const auto value = fields.integer(key, 255);
-  return value ? std::optional(static_cast<std::uint8_t>(*value)) : std::nullopt;
-}
-
-/// A sample, or nullopt where the line has none of its members.
-using Found = std::optional<Value>;
-
-Found read_compass(Fields& fields) {
-  CompassSample sample;
-  sample.heading_rad = heading(fields, "heading_rad");
-  sample.heading_is_true = fields.boolean("heading_is_true").value_or(false);
-  sample.pitch_rad = fields.number("pitch_rad", kTilt_rad);
-  sample.roll_rad = fields.number("roll_rad", kTilt_rad);
-  sample.tilt_by_accelerometers = fields.boolean("tilt_by_accelerometers").value_or(false);
-  sample.field_body_uT = fields.vector("field_body_uT", kField_uT);
-  sample.dip_rad = fields.number("dip_rad", kDip_rad);
-  sample.turn_rate_rad_s = fields.number("turn_rate_rad_s", kRate_rad_s);
-  sample.temperature_C = fields.number("temperature_C", kTemperature_C);
-  sample.heading_std_rad = fields.number("heading_std_rad", kError);
-  sample.tilt_std_rad = fields.number("tilt_std_rad", kError);
-  sample.field_std_uT = fields.number("field_std_uT", kError);
-  if (const auto error = fields.text("error")) {
-    std::uint32_t code = 0;
-    const auto [end, failed] = std::from_chars(error->data(), error->data() + error->size(), code, 16);
-    if (failed != std::errc{} || end != error->data() + error->size()) fields.refuse();
-    sample.error = code;
-  }
-  const bool has_any = sample.heading_rad || sample.pitch_rad || sample.roll_rad || sample.field_body_uT ||
-                       sample.dip_rad || sample.turn_rate_rad_s || sample.temperature_C || sample.error;
-  return has_any ? Found(sample) : std::nullopt;
-}
-
-Found read_imu(Fields& fields) {
-  ImuSample sample;
-  sample.rate_rad_s = fields.vector("rate_rad_s", kRate_rad_s);
-  sample.yaw_rate_b_rad_s = fields.number("yaw_rate_b_rad_s", kRate_rad_s);
-  sample.specific_force_m_s2 = fields.vector("specific_force_m_s2", kForce_m_s2);
-  sample.depth_m = fields.number("depth_m", kDepth_m);
-  sample.temperature_C = fields.number("temperature_C", kTemperature_C);
-  sample.over_range = fields.boolean("over_range").value_or(false);
-  sample.rate_std_rad_s = fields.number("rate_std_rad_s", kError);
-  sample.specific_force_std_m_s2 = fields.number("specific_force_std_m_s2", kError);
-  sample.depth_std_m = fields.number("depth_std_m", kError);
-  if (const auto sequence = count(fields, "sequence")) {
-    sample.card =
-        CardState{*sequence, fields.boolean("leak_forward").value_or(false),
-                  fields.boolean("leak_aft").value_or(false), fields.boolean("low_supply").value_or(false)};
-  }
-  const bool has_any = sample.rate_rad_s || sample.yaw_rate_b_rad_s || sample.specific_force_m_s2 ||
-                       sample.depth_m || sample.temperature_C || sample.card;
-  return has_any ? Found(sample) : std::nullopt;
-}
-
-std::optional<Fix> fix_named(std::string_view name) {
-  for (const Fix fix :
-       {Fix::none, Fix::fix_2d, Fix::fix_3d, Fix::propagated, Fix::hold, Fix::acquiring, Fix::bad_geometry}) {
-    if (name_of(fix) == name) return fix;
+template <class Name>
+std::optional<Name> named(std::string_view name, Name last) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(last); ++i) {
+    if (name_of(static_cast<Name>(i)) == name) return static_cast<Name>(i);
   }
   return std::nullopt;
 }
 
-Found read_gps(Fields& fields) {
-  GpsSample sample;
-  sample.time_utc_ns = fields.nanoseconds("time");
-  sample.latitude_rad = radians(fields.number("lat", kLatitude_deg));
-  sample.longitude_rad = radians(fields.number("lon", kLongitude_deg));
-  if (sample.latitude_rad.has_value() != sample.longitude_rad.has_value()) fields.refuse();
-  sample.height_m = fields.number("height_m", kHeight_m);
-  sample.height_msl_m = fields.number("height_msl_m", kHeight_m);
-  sample.speed_m_s = fields.number("speed_m_s", kGroundSpeed_m_s);
-  sample.course_rad = heading(fields, "course_rad");
-  sample.climb_m_s = fields.number("climb_m_s", kSpeed_m_s);
-  sample.dop = fields.number("dop", kDop);
-  sample.visible = count(fields, "visible");
-  sample.tracked = count(fields, "tracked");
-  sample.time_corrected = fields.boolean("time_corrected").value_or(false);
-  sample.leap_known = fields.boolean("leap_known").value_or(true);
-  sample.position_std_m = fields.number("position_std_m", kError);
-  sample.height_std_m = fields.number("height_std_m", kError);
-  sample.velocity_std_m_s = fields.number("velocity_std_m_s", kError);
-  if (const auto name = fields.text("fix")) {
-    const auto fix = fix_named(*name);
-    if (!fix) fields.refuse();
-    sample.fix = fix.value_or(Fix::none);
-  } else if (sample.latitude_rad) {
-    // A position from elsewhere (acoustics, a survey) has no satellites; that it is sent says that it counts.
-    sample.fix = sample.height_m || sample.height_msl_m ? Fix::fix_3d : Fix::fix_2d;
+/// Reads a member as its type is written. True where the line has it.
+struct MemberReader {
+  Fields& fields;
+  std::string_view key;
+  const Quantity& quantity;
+
+  bool operator()(double& value) const { return put(value, fields.number(key, quantity.bounds)); }
+  bool operator()(std::optional<double>& value) const {
+    value = fields.number(key, quantity.bounds);
+    if (value && quantity.form == Form::direction) value = base::as_heading(*value);
+    if (value && quantity.form == Form::degrees) *value *= base::kRadiansPerDegree;
+    return value.has_value();
   }
-  return sample;
-}
+  bool operator()(std::optional<Vector3>& values) const {
+    values = fields.vector(key, quantity.bounds);
+    return values.has_value();
+  }
+  bool operator()(std::array<std::optional<double>, 3>& values) const {
+    values = fields.three(key, quantity.bounds);
+    return std::any_of(values.begin(), values.end(), [](const auto& value) { return value.has_value(); });
+  }
+  bool operator()(bool& flag) const { return put(flag, fields.boolean(key)); }
+  bool operator()(std::uint8_t& count) const {
+    return put(count, fields.integer(key, static_cast<std::uint32_t>(quantity.bounds.max)));
+  }
+  /// A code, in hexadecimal digits.
+  bool operator()(std::uint32_t& code) const {
+    const auto digits = fields.text(key);
+    if (!digits) return false;
+    const auto [end, failed] = std::from_chars(digits->data(), digits->data() + digits->size(), code, 16);
+    if (failed != std::errc{} || end != digits->data() + digits->size()) fields.refuse();
+    return true;
+  }
+  bool operator()(Fix& fix) const { return put_named(fix, Fix::bad_geometry); }
+  bool operator()(VelocityFrame& frame) const { return put_named(frame, VelocityFrame::earth); }
+  template <std::size_t Size>
+  bool operator()(Text<Size>& words) const {
+    const auto text = fields.text(key);
+    if (text) words = Text<Size>(*text);
+    return text.has_value();
+  }
+  template <class T>
+  bool operator()(std::optional<T>& value) const {
+    T found{};
+    if ((*this)(found)) value = found;
+    return value.has_value();
+  }
 
-Found read_motor(Fields& fields) {
-  MotorSample sample;
-  sample.rpm_commanded = fields.number("rpm_commanded", kTurns_min);
-  sample.rpm = fields.number("rpm", kTurns_min);
-  sample.fins_rad = fields.three("fins_rad", kFin_rad);
-  sample.current_A = fields.number("current_A", kCurrent_A);
-  sample.sequence = count(fields, "sequence");
-  sample.fins_std_rad = fields.number("fins_std_rad", kError);
-  sample.current_std_A = fields.number("current_std_A", kError);
-  const bool has_fin =
-      std::any_of(sample.fins_rad.begin(), sample.fins_rad.end(), [](const auto& fin) { return fin.has_value(); });
-  return sample.rpm_commanded || sample.rpm || sample.current_A || has_fin ? Found(sample) : std::nullopt;
-}
-
-Found read_altimeter(Fields& fields) {
-  const auto altitude_m = fields.number("altitude_m", kAltitude_m);
-  const auto std_m = fields.number("altitude_std_m", kError);
-  return altitude_m ? Found(AltimeterSample{*altitude_m, std_m}) : std::nullopt;
-}
-
-Found read_power(Fields& fields) {
-  PowerSample sample;
-  sample.voltage_V = fields.number("voltage_V", kVoltage_V);
-  sample.current_A = fields.number("current_A", kCurrent_A);
-  return sample.voltage_V || sample.current_A ? Found(sample) : std::nullopt;
-}
-
-Found read_dvl(Fields& fields) {
-  DvlSample sample;
-  const auto frame = fields.text("frame");
-  if (frame && *frame != "body" && *frame != "earth") fields.refuse();
-  sample.frame = frame == "earth" ? VelocityFrame::earth : VelocityFrame::body;
-  sample.bottom_velocity_m_s = fields.vector("bottom_velocity_m_s", kSpeed_m_s);
-  sample.bottom_velocity_std_m_s = fields.number("bottom_velocity_std_m_s", kError);
-  sample.water_velocity_m_s = fields.vector("water_velocity_m_s", kSpeed_m_s);
-  sample.water_velocity_std_m_s = fields.number("water_velocity_std_m_s", kError);
-  sample.altitude_m = fields.number("altitude_m", kAltitude_m);
-  sample.altitude_std_m = fields.number("altitude_std_m", kError);
-  sample.temperature_C = fields.number("temperature_C", kTemperature_C);
-  sample.sound_speed_m_s = fields.number("sound_speed_m_s", kSound_m_s);
-  return sample;  // one without any velocity says that the bottom is lost
-}
-
-Found read_depth(Fields& fields) {
-  DepthSample sample;
-  sample.depth_m = fields.number("depth_m", kDepth_m);
-  sample.depth_std_m = fields.number("depth_std_m", kError);
-  sample.pressure_Pa = fields.number("pressure_Pa", kPressure_Pa);
-  sample.pressure_std_Pa = fields.number("pressure_std_Pa", kError);
-  sample.temperature_C = fields.number("temperature_C", kTemperature_C);
-  return sample.depth_m || sample.pressure_Pa || sample.temperature_C ? Found(sample) : std::nullopt;
-}
-
-Found read_sensor(Fields& fields) {
-  const auto quantity = fields.text("quantity"), unit = fields.text("unit");
-  const auto value = fields.number("value", kAny);
-  ScalarSample sample;
-  sample.value_std = fields.number("value_std", kError);
-  if (!value) return std::nullopt;
-  if (!quantity || quantity->empty()) fields.refuse();
-  sample.quantity = decltype(sample.quantity)(quantity.value_or(""));
-  sample.unit = decltype(sample.unit)(unit.value_or(""));
-  sample.value = *value;
-  return sample;
-}
-
-struct ClassReader {
-  std::string_view name;
-  Found (*read)(Fields&);
+ private:
+  template <class T, class From>
+  bool put(T& value, const std::optional<From>& found) const {
+    if (found) value = static_cast<T>(*found);
+    return found.has_value();
+  }
+  template <class Name>
+  bool put_named(Name& value, Name last) const {
+    const auto name = fields.text(key);
+    if (!name) return false;
+    const auto found = named(*name, last);
+    if (!found) fields.refuse();
+    return put(value, found);
+  }
 };
-constexpr std::array kReaders{ClassReader{"COMPASS", read_compass},
-                              ClassReader{"IMU", read_imu},
-                              ClassReader{"GPS", read_gps},
-                              ClassReader{"MOTOR", read_motor},
-                              ClassReader{"ALTIMETER", read_altimeter},
-                              ClassReader{"POWER", read_power},
-                              ClassReader{"DVL", read_dvl},
-                              ClassReader{"DEPTH", read_depth},
-                              ClassReader{"SENSOR", read_sensor}};
+
+/// Rules between the members of a line.
+template <class S>
+void complete(S&, Fields&) {}
+
+void complete(GpsSample& sample, Fields& fields) {
+  sample.time_utc_ns = fields.nanoseconds("time");
+  if (sample.latitude_rad.has_value() != sample.longitude_rad.has_value()) fields.refuse();
+  // A position from elsewhere (acoustics, a survey) has no satellites; that it is sent says that it counts.
+  if (sample.latitude_rad && !fields.text("fix"))
+    sample.fix = sample.height_m || sample.height_msl_m ? Fix::fix_3d : Fix::fix_2d;
+}
+
+void complete(ScalarSample& sample, Fields& fields) {
+  if (sample.quantity.view().empty()) fields.refuse();
+}
+
+/// A sample, or nullopt where the line has none of its members.
+template <class S>
+std::optional<Value> read_sample(Fields& fields) {
+  S sample;
+  // A receiver without a fix and a Doppler log without the bottom say so.
+  bool has_any = std::is_same_v<S, GpsSample> || std::is_same_v<S, DvlSample>;
+  for_each_field<S>([&](const auto& field) {
+    const Quantity& quantity = field.quantity;
+    if (quantity.role == Role::result) return;
+    if constexpr (requires { sample.card; }) {
+      if (field.key == "sequence" && fields.integer(field.key, 255)) sample.card.emplace();
+    }
+    auto* const member = member_of(sample, field);
+    if (member == nullptr || !MemberReader{fields, field.key, quantity}(*member)) return;
+    if (quantity.role == Role::measured) has_any = true;
+  });
+  if (!has_any) return std::nullopt;
+  complete(sample, fields);
+  return sample;
+}
 
 /// Other lines of navcal: a recording that is injected again contains them.
 constexpr std::array<std::string_view, 8> kNoMeasurements{"SKY",         "NAV",   "BATTERY", "CALIB",
@@ -221,10 +139,14 @@ Instrument::Verdict InjectedSamples::read(const protocols::Frame& frame, Receive
   const std::string name = fields.text("class").value_or("");
   if (std::find(kNoMeasurements.begin(), kNoMeasurements.end(), name) != kNoMeasurements.end())
     return Verdict::ignored;
-  const auto reader =
-      std::find_if(kReaders.begin(), kReaders.end(), [&](const ClassReader& of) { return of.name == name; });
-  if (reader == kReaders.end()) return Verdict::out_of_range;
-  const Found found = reader->read(fields);
+  std::optional<Value> found;
+  bool is_known = false;
+  for_each_kind([&]<class S>(std::type_identity<S>) {
+    if (kKind<S>.class_name != name) return;
+    is_known = true;
+    found = read_sample<S>(fields);
+  });
+  if (!is_known) return Verdict::out_of_range;
   SenderTime time;
   time.utc_ns = fields.nanoseconds("time");
   time.std_ns = fields.nanoseconds("time_std");

@@ -3,7 +3,10 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <type_traits>
+
+#include "instruments/sample_fields.h"
 
 namespace navcal::python {
 namespace {
@@ -24,97 +27,48 @@ py::array array_of(std::vector<Element>&& values, std::size_t width) {
   return py::array(py::dtype::of<Shown>(), shape, data, owner);
 }
 
-/// Members of a sample into the columns of its kind, with the keys of `navcal replay`; angles of a place in
-/// radians.
+/// A member into its column; angles of a place in radians.
+struct MemberColumn {
+  Table& table;
+  const char* name;
+
+  void operator()(double value) const { table.put(name, std::optional(value)); }
+  void operator()(const std::optional<double>& value) const { table.put(name, value); }
+  void operator()(const std::optional<api::Vector3>& values) const { table.put(name, values); }
+  void operator()(const std::array<std::optional<double>, 3>& values) const { table.put(name, values); }
+  void operator()(const std::optional<std::uint8_t>& count) const {
+    table.put(name, std::optional<double>(count));
+  }
+  void operator()(const std::optional<std::uint32_t>& code) const {
+    table.put(name, static_cast<std::int64_t>(code.value_or(0)));
+  }
+  void operator()(bool flag) const { table.put_flag(name, flag); }
+  void operator()(const std::string& words) const { table.put_text(name, words); }
+  void operator()(api::Fix fix) const {
+    table.put_text(name, std::string(name_of(static_cast<instruments::Fix>(fix))));
+  }
+  void operator()(api::VelocityFrame frame) const {
+    table.put_text(name, std::string(name_of(static_cast<instruments::VelocityFrame>(frame))));
+  }
+};
+
+/// Members of a sample into the columns of its kind, with the keys of `navcal replay`.
 struct Rows {
   Table& table;
 
-  void operator()(const api::CompassSample& s) const {
-    table.put("heading_rad", s.heading_rad);
-    table.put_flag("heading_is_true", s.heading_is_true);
-    table.put("heading_calibrated_rad", s.heading_calibrated_rad);
-    table.put("pitch_rad", s.pitch_rad);
-    table.put("roll_rad", s.roll_rad);
-    table.put_flag("tilt_by_accelerometers", s.tilt_by_accelerometers);
-    table.put("field_body_uT", s.field_body_uT);
-    table.put("dip_rad", s.dip_rad);
-    table.put("turn_rate_rad_s", s.turn_rate_rad_s);
-    table.put("temperature_C", s.temperature_C);
-    table.put("error", static_cast<std::int64_t>(s.error.value_or(0)));
-    table.put("heading_std_rad", s.heading_std_rad);
-    table.put("tilt_std_rad", s.tilt_std_rad);
-    table.put("field_std_uT", s.field_std_uT);
-  }
-  void operator()(const api::ImuSample& s) const {
-    table.put("rate_rad_s", s.rate_rad_s);
-    table.put("yaw_rate_b_rad_s", s.yaw_rate_b_rad_s);
-    table.put("yaw_rate_calibrated_rad_s", s.yaw_rate_calibrated_rad_s);
-    table.put("yaw_rate_b_calibrated_rad_s", s.yaw_rate_b_calibrated_rad_s);
-    table.put("specific_force_m_s2", s.specific_force_m_s2);
-    table.put("depth_m", s.depth_m);
-    table.put("temperature_C", s.temperature_C);
-    table.put_flag("over_range", s.over_range);
-    table.put_flag("leak_forward", s.card && s.card->leak_forward);
-    table.put_flag("leak_aft", s.card && s.card->leak_aft);
-    table.put_flag("low_supply", s.card && s.card->low_supply);
-    table.put("rate_std_rad_s", s.rate_std_rad_s);
-    table.put("specific_force_std_m_s2", s.specific_force_std_m_s2);
-    table.put("depth_std_m", s.depth_std_m);
-  }
-  void operator()(const api::GpsSample& s) const {
-    constexpr std::array kFixes{"none", "2d", "3d", "propagated", "hold", "acquiring", "bad_geometry"};
-    table.put_text("fix", kFixes.at(static_cast<std::size_t>(s.fix)));
-    table.put("latitude_rad", s.latitude_rad);
-    table.put("longitude_rad", s.longitude_rad);
-    table.put("height_m", s.height_m);
-    table.put("height_msl_m", s.height_msl_m);
-    table.put("speed_m_s", s.speed_m_s);
-    table.put("course_rad", s.course_rad);
-    table.put("climb_m_s", s.climb_m_s);
-    table.put("dop", s.dop);
-    table.put("position_std_m", s.position_std_m);
-    table.put("height_std_m", s.height_std_m);
-    table.put("velocity_std_m_s", s.velocity_std_m_s);
-  }
-  void operator()(const api::MotorSample& s) const {
-    table.put("rpm_commanded", s.rpm_commanded);
-    table.put("rpm", s.rpm);
-    table.put("fins_rad", s.fins_rad);
-    table.put("current_A", s.current_A);
-    table.put("fins_std_rad", s.fins_std_rad);
-    table.put("current_std_A", s.current_std_A);
-  }
-  void operator()(const api::AltimeterSample& s) const {
-    table.put("altitude_m", std::optional(s.altitude_m));
-    table.put("altitude_std_m", s.altitude_std_m);
-  }
-  void operator()(const api::PowerSample& s) const {
-    table.put("voltage_V", s.voltage_V);
-    table.put("current_A", s.current_A);
-  }
-  void operator()(const api::DvlSample& s) const {
-    table.put_text("frame", s.frame == api::VelocityFrame::body ? "body" : "earth");
-    table.put("bottom_velocity_m_s", s.bottom_velocity_m_s);
-    table.put("bottom_velocity_std_m_s", s.bottom_velocity_std_m_s);
-    table.put("water_velocity_m_s", s.water_velocity_m_s);
-    table.put("water_velocity_std_m_s", s.water_velocity_std_m_s);
-    table.put("altitude_m", s.altitude_m);
-    table.put("altitude_std_m", s.altitude_std_m);
-    table.put("temperature_C", s.temperature_C);
-    table.put("sound_speed_m_s", s.sound_speed_m_s);
-  }
-  void operator()(const api::DepthSample& s) const {
-    table.put("depth_m", s.depth_m);
-    table.put("depth_std_m", s.depth_std_m);
-    table.put("pressure_Pa", s.pressure_Pa);
-    table.put("pressure_std_Pa", s.pressure_std_Pa);
-    table.put("temperature_C", s.temperature_C);
-  }
-  void operator()(const api::ScalarSample& s) const {
-    table.put_text("quantity", s.quantity);
-    table.put_text("unit", s.unit);
-    table.put("value", std::optional(s.value));
-    table.put("value_std", s.value_std);
+  template <class S>
+  void operator()(const S& sample) const {
+    instruments::for_each_field<S>([&]<class Owner, class T>(const instruments::kind::Field<Owner, T>& field) {
+      const char* name = field.key.data();
+      if (field.key == "lat") name = "latitude_rad";
+      if (field.key == "lon") name = "longitude_rad";
+      const auto* const member = instruments::member_of(sample, field);
+      if constexpr (std::is_same_v<T, std::uint8_t>) {
+        table.put(name, member != nullptr ? std::optional<double>(*member) : std::nullopt);
+      } else {
+        MemberColumn{table, name}(member != nullptr ? *member : T{});
+      }
+    });
   }
   void operator()(const api::NavigationSample& s) const {
     table.put("latitude_rad", s.latitude_rad);
@@ -149,15 +103,10 @@ struct Rows {
 };
 
 struct KindNames {
-  const char* operator()(const api::CompassSample&) const { return "compass"; }
-  const char* operator()(const api::ImuSample&) const { return "imu"; }
-  const char* operator()(const api::GpsSample&) const { return "gps"; }
-  const char* operator()(const api::MotorSample&) const { return "motor"; }
-  const char* operator()(const api::AltimeterSample&) const { return "altimeter"; }
-  const char* operator()(const api::PowerSample&) const { return "power"; }
-  const char* operator()(const api::DvlSample&) const { return "dvl"; }
-  const char* operator()(const api::DepthSample&) const { return "depth"; }
-  const char* operator()(const api::ScalarSample&) const { return "sensor"; }
+  template <class S>
+  const char* operator()(const S&) const {
+    return instruments::kKind<S>.name.data();
+  }
   const char* operator()(const api::NavigationSample&) const { return "navigation"; }
   const char* operator()(const api::BatterySample&) const { return "battery"; }
 };

@@ -2,10 +2,15 @@
 #include "record/export/field_meaning.h"
 
 #include <array>
+#include <type_traits>
+#include <vector>
+
+#include "instruments/sample_fields.h"
 
 namespace navcal::record {
 namespace {
 
+/// Apart from those of samples.
 constexpr std::array kMeanings{
     // Every topic.
     FieldMeaning{"", "time", "", "time", "time of validity"},
@@ -14,87 +19,7 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "device", "", "", "port of the configuration"},
     FieldMeaning{"", "calibration", "", "", "calibration in force"},
     FieldMeaning{"", "json", "", "", "the message, a JSON object"},
-    // Compass.
-    FieldMeaning{"/compass", "heading_rad", "radian", "", "heading as the device said it, from magnetic north"},
-    FieldMeaning{"", "heading_calibrated_rad", "radian", "",
-                 "heading by the calibration in force, from magnetic north"},
-    FieldMeaning{"", "heading_is_true", "", "", "the device itself says the heading from true north"},
-    FieldMeaning{"", "pitch_rad", "radian", "platform_pitch_fore_up", "pitch, positive nose up"},
-    FieldMeaning{"", "roll_rad", "radian", "platform_roll_starboard_down", "roll, positive starboard down"},
-    FieldMeaning{"", "tilt_by_accelerometers", "", "", "pitch and roll are not the compass's own"},
-    FieldMeaning{"", "field_body_uT", "uT", "", "magnetic field in body axes (forward, starboard, down)"},
-    FieldMeaning{"", "dip_rad", "radian", "", "inclination of the magnetic field as the device said it"},
-    FieldMeaning{"", "turn_rate_rad_s", "radian s-1", "platform_yaw_rate_fore_starboard",
-                 "rate of turn as the device said it, positive to starboard"},
-    FieldMeaning{"", "temperature_C", "degree_Celsius", "", "temperature that the device measures"},
-    FieldMeaning{"", "error", "", "", "error code of the compass, hexadecimal"},
-    // Inertial card.
-    FieldMeaning{"", "rate_rad_s", "radian s-1", "", "rate of turn about body axes (gyros A-x, B-y, A-z)"},
-    FieldMeaning{"", "yaw_rate_b_rad_s", "radian s-1", "", "rate of turn about the z axis, gyro B"},
-    FieldMeaning{"", "yaw_rate_calibrated_rad_s", "radian s-1", "", "gyro A's z axis by the calibration in force"},
-    FieldMeaning{"", "yaw_rate_b_calibrated_rad_s", "radian s-1", "",
-                 "gyro B's z axis by the calibration in force"},
-    FieldMeaning{"", "specific_force_m_s2", "m s-2", "",
-                 "specific force in body axes, -9.81 in z when level and still"},
-    FieldMeaning{"", "depth_m", "m", "depth", "depth of the vehicle"},
-    FieldMeaning{"", "sequence", "1", "", "number of the frame as the device counts it"},
-    FieldMeaning{"", "leak_forward", "", "", "water in the forward section"},
-    FieldMeaning{"", "leak_aft", "", "", "water in the aft section"},
-    FieldMeaning{"", "over_range", "", "", "a channel is beyond its range"},
-    FieldMeaning{"", "low_supply", "", "", "the supply is low"},
-    // Receiver.
-    FieldMeaning{"", "lat", "degrees_north", "latitude", "latitude, WGS84"},
-    FieldMeaning{"", "lon", "degrees_east", "longitude", "longitude, WGS84"},
-    FieldMeaning{"/gps", "speed_m_s", "m s-1", "platform_speed_wrt_ground", "speed over ground"},
-    FieldMeaning{"", "course_rad", "radian", "platform_course", "course over ground, from true north"},
-    FieldMeaning{"", "fix", "", "", "kind of the fix"},
-    FieldMeaning{"", "height_m", "m", "height_above_reference_ellipsoid", "height above the ellipsoid"},
-    FieldMeaning{"", "height_msl_m", "m", "altitude", "height above mean sea level"},
-    FieldMeaning{"", "climb_m_s", "m s-1", "", "vertical velocity, positive upwards"},
-    FieldMeaning{"", "dop", "1", "", "dilution of precision, of position when 3D, horizontal when 2D"},
-    FieldMeaning{"", "visible", "1", "", "satellites in view"},
-    FieldMeaning{"", "tracked", "1", "", "satellites tracked"},
-    FieldMeaning{"", "time_corrected", "", "", "a rollover of the week was undone"},
-    FieldMeaning{"", "leap_known", "", "", "the receiver knows the leap seconds"},
-    // Motor card.
-    FieldMeaning{"", "rpm", "rpm", "", "revolutions of the shaft"},
-    FieldMeaning{"", "rpm_commanded", "rpm", "", "revolutions commanded"},
-    FieldMeaning{"", "fins_rad", "radian", "", "angle of the fin"},
-    FieldMeaning{"", "current_A", "A", "", "current of the motor, or out of the battery"},
-    // Echo sounder.
-    FieldMeaning{"", "altitude_m", "m", "height_above_sea_floor", "distance from the transducer to the bottom"},
-    // Doppler log.
-    FieldMeaning{"", "frame", "", "",
-                 "axes of the velocities: body (forward, starboard, down) or earth (north, east, down)"},
-    FieldMeaning{"", "bottom_velocity_m_s", "m s-1", "", "velocity over the bottom"},
-    FieldMeaning{"", "bottom_velocity_std_m_s", "m s-1", "",
-                 "standard error of the velocity over the bottom, each axis"},
-    FieldMeaning{"", "water_velocity_m_s", "m s-1", "", "velocity through the water"},
-    FieldMeaning{"", "water_velocity_std_m_s", "m s-1", "",
-                 "standard error of the velocity through the water, each axis"},
-    FieldMeaning{"", "sound_speed_m_s", "m s-1", "speed_of_sound_in_sea_water",
-                 "speed of sound that the device reckons with"},
-    // Pressure gauge.
-    FieldMeaning{"", "pressure_Pa", "Pa", "", "absolute pressure"},
-    FieldMeaning{"", "pressure_std_Pa", "Pa", "", "standard error of the pressure"},
-    // Mission sensors.
-    FieldMeaning{"", "quantity", "", "", "quantity that the sensor measures"},
-    FieldMeaning{"", "unit", "", "", "unit of the value"},
-    FieldMeaning{"", "value", "", "", "value in that unit"},
-    FieldMeaning{"", "value_std", "", "", "standard error of the value"},
-    // Standard errors of one reading.
-    FieldMeaning{"", "tilt_std_rad", "radian", "", "standard error of pitch and roll"},
-    FieldMeaning{"", "field_std_uT", "uT", "", "standard error of the magnetic field, each axis"},
-    FieldMeaning{"", "rate_std_rad_s", "radian s-1", "", "standard error of the rates of turn, each axis"},
-    FieldMeaning{"", "specific_force_std_m_s2", "m s-2", "", "standard error of the specific force, each axis"},
-    FieldMeaning{"", "depth_std_m", "m", "", "standard error of the depth"},
-    FieldMeaning{"", "position_std_m", "m", "", "standard error of the position, north and east"},
-    FieldMeaning{"", "height_std_m", "m", "", "standard error of the height"},
-    FieldMeaning{"", "velocity_std_m_s", "m s-1", "", "standard error of the velocity, north and east"},
-    FieldMeaning{"", "fins_std_rad", "radian", "", "standard error of the fin angles"},
-    FieldMeaning{"", "current_std_A", "A", "", "standard error of the current"},
     // Battery.
-    FieldMeaning{"", "voltage_V", "V", "", "voltage of the battery under load"},
     FieldMeaning{"", "current_measured", "", "", "the current is that of a gauge of the whole vehicle"},
     FieldMeaning{"", "charge_Ah", "A h", "", "charge left"},
     FieldMeaning{"", "charge_std_Ah", "A h", "", "standard error of the charge left"},
@@ -104,7 +29,6 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "range_left_m", "m", "", "way left at the mean load and speed"},
     FieldMeaning{"", "low", "", "", "the battery is low"},
     // Navigation.
-    FieldMeaning{"", "altitude_std_m", "m", "", "standard error of the height above the sea floor"},
     FieldMeaning{"", "water_depth_m", "m", "sea_floor_depth_below_sea_surface", "depth of the water"},
     FieldMeaning{"", "position", "", "", "whence the position is"},
     FieldMeaning{"", "north_std_m", "m", "", "standard error of the position northward"},
@@ -128,7 +52,6 @@ constexpr std::array kMeanings{
     FieldMeaning{"/command", "reason", "", "", "why the order was refused"},
     FieldMeaning{"/command", "refused_since", "1", "", "refusals before this one without a record"},
     FieldMeaning{"/nav", "heading_rad", "radian", "platform_orientation", "heading from true north"},
-    FieldMeaning{"", "heading_std_rad", "radian", "", "standard error of the heading"},
     FieldMeaning{"/nav", "speed_m_s", "m s-1", "platform_speed_wrt_sea_water", "speed through the water"},
     FieldMeaning{"", "speed_source", "", "", "instrument whose velocity moves the position"},
     FieldMeaning{"", "bottom_lock", "", "", "whether the Doppler log measures over the bottom"},
@@ -162,11 +85,24 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "message", "", "", "what happened, in words"},
 };
 
+std::vector<FieldMeaning> all_meanings() {
+  std::vector<FieldMeaning> meanings(kMeanings.begin(), kMeanings.end());
+  const auto add_kind = [&]<class Sample>(std::type_identity<Sample>) {
+    instruments::for_each_field<Sample>([&](const auto& field) {
+      if (field.description.empty()) return;
+      meanings.push_back({"", field.key, field.quantity.units, field.cf_name, field.description});
+    });
+  };
+  instruments::for_each_kind(add_kind);
+  return meanings;
+}
+
 }  // namespace
 
 const FieldMeaning* field_meaning(std::string_view topic, std::string_view field) {
+  static const std::vector<FieldMeaning> kAll = all_meanings();
   const FieldMeaning* found = nullptr;
-  for (const FieldMeaning& meaning : kMeanings) {
+  for (const FieldMeaning& meaning : kAll) {
     if (meaning.field != field) continue;
     if (meaning.topic == topic) return &meaning;
     if (meaning.topic.empty()) found = &meaning;

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
+
+#include "instruments/sample_fields.h"
 
 namespace navcal::record {
 namespace {
@@ -22,6 +26,27 @@ constexpr std::array kEvent{Field{"time", number, "s"}, Field{"monotonic", numbe
 
 constexpr std::array kSomeJson{Field{"time", number, "s"}};
 
+template <class T>
+constexpr FieldKind kKindOf = text;
+template <>
+constexpr FieldKind kKindOf<double> = number;
+template <>
+constexpr FieldKind kKindOf<std::uint8_t> = number;
+template <>
+constexpr FieldKind kKindOf<bool> = boolean;
+template <>
+constexpr FieldKind kKindOf<instruments::Vector3> = vector3;
+template <>
+constexpr FieldKind kKindOf<std::array<std::optional<double>, 3>> = vector3;
+template <class T>
+constexpr FieldKind kKindOf<std::optional<T>> = kKindOf<T>;
+
+template <class Owner, class T>
+constexpr Field field_of(const instruments::kind::Field<Owner, T>& field) {
+  const bool is_degrees = field.quantity.form == instruments::Form::degrees;
+  return {field.key, kKindOf<T>, is_degrees ? std::string_view("deg") : std::string_view()};
+}
+
 /// The members that all samples have, around those of their own.
 template <std::size_t N>
 constexpr std::array<Field, N + 5> sample_fields(const Field (&own)[N]) {
@@ -32,43 +57,9 @@ constexpr std::array<Field, N + 5> sample_fields(const Field (&own)[N]) {
   return fields;
 }
 
-constexpr auto kCompass = sample_fields(
-    {Field{"heading_rad"}, Field{"heading_calibrated_rad"}, Field{"heading_is_true", boolean}, Field{"pitch_rad"},
-     Field{"roll_rad"}, Field{"field_body_uT", vector3}, Field{"dip_rad"}, Field{"turn_rate_rad_s"},
-     Field{"temperature_C"}, Field{"error", text}, Field{"tilt_by_accelerometers", boolean},
-     Field{"heading_std_rad"}, Field{"tilt_std_rad"}, Field{"field_std_uT"}});
-
-constexpr auto kImu =
-    sample_fields({Field{"rate_rad_s", vector3}, Field{"yaw_rate_b_rad_s"}, Field{"yaw_rate_calibrated_rad_s"},
-                   Field{"yaw_rate_b_calibrated_rad_s"}, Field{"specific_force_m_s2", vector3}, Field{"depth_m"},
-                   Field{"sequence"}, Field{"leak_forward", boolean}, Field{"leak_aft", boolean},
-                   Field{"low_supply", boolean}, Field{"over_range", boolean}, Field{"temperature_C"},
-                   Field{"rate_std_rad_s"}, Field{"specific_force_std_m_s2"}, Field{"depth_std_m"}});
-
-constexpr auto kGps = sample_fields(
-    {Field{"lat", number, "deg"}, Field{"lon", number, "deg"}, Field{"speed_m_s"}, Field{"course_rad"},
-     Field{"fix", text}, Field{"height_m"}, Field{"height_msl_m"}, Field{"climb_m_s"}, Field{"dop"},
-     Field{"visible"}, Field{"tracked"}, Field{"time_corrected", boolean}, Field{"leap_known", boolean},
-     Field{"position_std_m"}, Field{"height_std_m"}, Field{"velocity_std_m_s"}});
-
-constexpr auto kMotor =
-    sample_fields({Field{"rpm"}, Field{"rpm_commanded"}, Field{"fins_rad", vector3}, Field{"current_A"},
-                   Field{"sequence"}, Field{"fins_std_rad"}, Field{"current_std_A"}});
-
-constexpr auto kAltimeter = sample_fields({Field{"altitude_m"}, Field{"altitude_std_m"}});
-
-constexpr auto kPower = sample_fields({Field{"voltage_V"}, Field{"current_A"}});
-
-constexpr auto kDvl =
-    sample_fields({Field{"frame", text}, Field{"bottom_velocity_m_s", vector3}, Field{"bottom_velocity_std_m_s"},
-                   Field{"water_velocity_m_s", vector3}, Field{"water_velocity_std_m_s"}, Field{"altitude_m"},
-                   Field{"altitude_std_m"}, Field{"temperature_C"}, Field{"sound_speed_m_s"}});
-
-constexpr auto kDepth = sample_fields({Field{"depth_m"}, Field{"depth_std_m"}, Field{"pressure_Pa"},
-                                       Field{"pressure_std_Pa"}, Field{"temperature_C"}});
-
-constexpr auto kSensor =
-    sample_fields({Field{"quantity", text}, Field{"unit", text}, Field{"value"}, Field{"value_std"}});
+template <class Sample>
+constexpr auto kFieldsOf = std::apply([](const auto&... field) { return sample_fields({field_of(field)...}); },
+                                      instruments::kKind<Sample>.fields);
 
 constexpr std::array kBattery{Field{"time", number, "s"},
                               Field{"time_std", number, "s"},
@@ -137,18 +128,18 @@ constexpr std::array kTopics{
     Topic{topic::kEvent, "/event", "navcal.Event", kEvent},
     Topic{topic::kHealth, "/health", "navcal.Health", kSomeJson},
     Topic{topic::kCalib, "/calib", "navcal.Calib", kSomeJson},
-    Topic{topic::kCompass, "/compass", "navcal.Compass", kCompass},
-    Topic{topic::kImu, "/imu", "navcal.Imu", kImu},
-    Topic{topic::kGps, "/gps", "navcal.Gps", kGps},
-    Topic{topic::kMotor, "/motor", "navcal.Motor", kMotor},
-    Topic{topic::kAltimeter, "/altimeter", "navcal.Altimeter", kAltimeter},
+    Topic{topic::kCompass, "/compass", "navcal.Compass", kFieldsOf<instruments::CompassSample>},
+    Topic{topic::kImu, "/imu", "navcal.Imu", kFieldsOf<instruments::ImuSample>},
+    Topic{topic::kGps, "/gps", "navcal.Gps", kFieldsOf<instruments::GpsSample>},
+    Topic{topic::kMotor, "/motor", "navcal.Motor", kFieldsOf<instruments::MotorSample>},
+    Topic{topic::kAltimeter, "/altimeter", "navcal.Altimeter", kFieldsOf<instruments::AltimeterSample>},
     Topic{topic::kNav, "/nav", "navcal.Nav", kNav},
     Topic{topic::kCommand, "/command", "navcal.Command", kCommandFields},
-    Topic{topic::kPower, "/power", "navcal.Power", kPower},
+    Topic{topic::kPower, "/power", "navcal.Power", kFieldsOf<instruments::PowerSample>},
     Topic{topic::kBattery, "/battery", "navcal.Battery", kBattery},
-    Topic{topic::kDvl, "/dvl", "navcal.Dvl", kDvl},
-    Topic{topic::kDepth, "/depth", "navcal.Depth", kDepth},
-    Topic{topic::kSensor, "/sensor", "navcal.Sensor", kSensor},
+    Topic{topic::kDvl, "/dvl", "navcal.Dvl", kFieldsOf<instruments::DvlSample>},
+    Topic{topic::kDepth, "/depth", "navcal.Depth", kFieldsOf<instruments::DepthSample>},
+    Topic{topic::kSensor, "/sensor", "navcal.Sensor", kFieldsOf<instruments::ScalarSample>},
 };
 
 nlohmann::ordered_json schema_of(const Field& field) {
