@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "base/angles.h"
+#include "instruments/sample_fields.h"
 
 namespace navcal::instruments {
 namespace {
@@ -115,83 +117,58 @@ Instrument::Verdict DescribedDevice::read(const protocols::Frame& frame, Receive
   return hand_over(kind, receiver) ? Verdict::used : Verdict::ignored;
 }
 
-ImuSample DescribedDevice::imu_of(const Kind& kind) {
-  ImuSample sample;
-  sample.rate_rad_s = kind.vector(Meaning::rate_x);
-  sample.yaw_rate_b_rad_s = kind.value(Meaning::rate_yaw_b);
-  sample.specific_force_m_s2 = kind.vector(Meaning::specific_force_x);
-  sample.depth_m = kind.value(Meaning::depth);
-  sample.temperature_C = kind.value(Meaning::temperature);
-  sample.over_range = kind.flag(Meaning::over_range);
-  if (kind.has_card_state) {
-    sample.card = {.sequence = sequence_of(kind.value(Meaning::sequence)).value_or(0),
-                   .leak_forward = kind.flag(Meaning::leak_forward),
-                   .leak_aft = kind.flag(Meaning::leak_aft),
-                   .low_supply = kind.flag(Meaning::low_supply)};
+template <class S>
+S DescribedDevice::sample_of(const Kind& kind) {
+  S sample;
+  if constexpr (requires { sample.card; }) {
+    if (kind.has_card_state) sample.card.emplace();
   }
-  sample.rate_std_rad_s = kind.std(Meaning::rate_x);
-  sample.specific_force_std_m_s2 = kind.std(Meaning::specific_force_x);
-  sample.depth_std_m = kind.std(Meaning::depth);
+  for_each_field<S>([&]<class Owner, class T>(const kind::Field<Owner, T>& field) {
+    auto* const member = member_of(sample, field);
+    if (field.meaning == Meaning::none || member == nullptr) return;
+    if constexpr (std::is_same_v<T, bool>) {
+      *member = kind.flag(field.meaning);
+    } else if constexpr (std::is_same_v<T, std::uint8_t>) {
+      *member = sequence_of(kind.value(field.meaning)).value_or(0);
+    } else if constexpr (std::is_same_v<T, std::optional<std::uint8_t>>) {
+      const auto number = kind.value(field.meaning);
+      *member = field.meaning == Meaning::sequence ? sequence_of(number) : count_of(number);
+    } else if constexpr (std::is_same_v<T, std::optional<Vector3>>) {
+      *member = kind.vector(field.meaning);
+    } else if constexpr (std::is_same_v<T, std::array<std::optional<double>, 3>>) {
+      for (std::size_t i = 0; i < 3; ++i)
+        (*member)[i] = kind.value(static_cast<Meaning>(place(field.meaning) + i));
+    } else if constexpr (std::is_same_v<T, std::optional<double>>) {
+      *member = field.quantity.role == Role::error ? kind.std(field.meaning) : kind.value(field.meaning);
+      if (field.quantity.form == Form::direction) *member = heading_of(*member);
+    }
+  });
   return sample;
 }
 
 CompassSample DescribedDevice::compass_of(const Kind& kind) {
-  CompassSample sample;
-  const auto heading_true = kind.value(Meaning::heading_true);
-  sample.heading_is_true = heading_true.has_value();
-  sample.heading_rad = heading_of(heading_true ? heading_true : kind.value(Meaning::heading));
-  sample.pitch_rad = kind.value(Meaning::pitch);
-  sample.roll_rad = kind.value(Meaning::roll);
-  sample.field_body_uT = kind.vector(Meaning::field_x);
-  sample.dip_rad = kind.value(Meaning::dip);
-  sample.turn_rate_rad_s = kind.value(Meaning::turn_rate);
+  auto sample = sample_of<CompassSample>(kind);
+  if (const auto heading_true = kind.value(Meaning::heading_true)) {
+    sample.heading_is_true = true;
+    sample.heading_rad = heading_of(heading_true);
+    sample.heading_std_rad = kind.std(Meaning::heading_true);
+  }
   // A sensor's temperature is said once, with the readings that depend on it most.
-  if (!kind.is_imu) sample.temperature_C = kind.value(Meaning::temperature);
-  sample.heading_std_rad = kind.std(heading_true ? Meaning::heading_true : Meaning::heading);
-  sample.tilt_std_rad = kind.std(Meaning::pitch);
-  sample.field_std_uT = kind.std(Meaning::field_x);
+  if (kind.is_imu) sample.temperature_C.reset();
   return sample;
 }
 
 GpsSample DescribedDevice::gps_of(const Kind& kind) {
-  GpsSample sample;
-  sample.latitude_rad = kind.value(Meaning::latitude);
-  sample.longitude_rad = kind.value(Meaning::longitude);
+  auto sample = sample_of<GpsSample>(kind);
   if (sample.longitude_rad) sample.longitude_rad = base::wrapped(*sample.longitude_rad);
-  sample.height_m = kind.value(Meaning::height);
-  sample.height_msl_m = kind.value(Meaning::height_msl);
   const bool has_place = sample.latitude_rad && sample.longitude_rad;
   const bool has_height = sample.height_m || sample.height_msl_m;
   sample.fix = !has_place ? Fix::none : has_height ? Fix::fix_3d : Fix::fix_2d;
-  sample.speed_m_s = kind.value(Meaning::speed);
-  sample.course_rad = heading_of(kind.value(Meaning::course));
-  sample.climb_m_s = kind.value(Meaning::climb);
-  sample.dop = kind.value(Meaning::dop);
-  sample.tracked = count_of(kind.value(Meaning::satellites));
-  sample.position_std_m = kind.std(Meaning::latitude);
-  sample.height_std_m = kind.std(Meaning::height);
-  sample.velocity_std_m_s = kind.std(Meaning::speed);
-  return sample;
-}
-
-MotorSample DescribedDevice::motor_of(const Kind& kind) {
-  MotorSample sample;
-  sample.rpm = kind.value(Meaning::rpm);
-  sample.rpm_commanded = kind.value(Meaning::rpm_commanded);
-  sample.fins_rad = {kind.value(Meaning::fin_1), kind.value(Meaning::fin_2), kind.value(Meaning::fin_3)};
-  sample.current_A = kind.value(Meaning::motor_current);
-  sample.sequence = sequence_of(kind.value(Meaning::sequence));
-  sample.fins_std_rad = kind.std(Meaning::fin_1);
-  sample.current_std_A = kind.std(Meaning::motor_current);
   return sample;
 }
 
 DvlSample DescribedDevice::dvl_of(const Kind& kind) {
-  DvlSample sample;
-  sample.bottom_velocity_m_s = kind.vector(Meaning::bottom_velocity_x);
-  sample.water_velocity_m_s = kind.vector(Meaning::water_velocity_x);
-  sample.bottom_velocity_std_m_s = kind.std(Meaning::bottom_velocity_x);
-  sample.water_velocity_std_m_s = kind.std(Meaning::water_velocity_x);
+  auto sample = sample_of<DvlSample>(kind);
   if (has_any(kind.meanings, {Meaning::bottom_velocity_north, Meaning::water_velocity_north})) {
     sample.frame = VelocityFrame::earth;
     sample.bottom_velocity_m_s = kind.vector(Meaning::bottom_velocity_north);
@@ -199,21 +176,14 @@ DvlSample DescribedDevice::dvl_of(const Kind& kind) {
     sample.bottom_velocity_std_m_s = kind.std(Meaning::bottom_velocity_north);
     sample.water_velocity_std_m_s = kind.std(Meaning::water_velocity_north);
   }
-  sample.altitude_m = kind.value(Meaning::altitude);
-  sample.altitude_std_m = kind.std(Meaning::altitude);
-  sample.sound_speed_m_s = kind.value(Meaning::sound_speed);
-  if (!kind.is_imu && !kind.is_compass) sample.temperature_C = kind.value(Meaning::temperature);
+  if (kind.is_imu || kind.is_compass) sample.temperature_C.reset();
   return sample;
 }
 
 DepthSample DescribedDevice::depth_of(const Kind& kind) {
-  DepthSample sample;
-  sample.pressure_Pa = kind.value(Meaning::pressure);
-  sample.pressure_std_Pa = kind.std(Meaning::pressure);
-  if (kind.is_imu) return sample;  // which has the depth and the temperature
-  sample.depth_m = kind.value(Meaning::depth);
-  sample.depth_std_m = kind.std(Meaning::depth);
-  if (!kind.is_compass && !kind.is_dvl) sample.temperature_C = kind.value(Meaning::temperature);
+  auto sample = sample_of<DepthSample>(kind);
+  if (kind.is_imu || kind.is_compass || kind.is_dvl) sample.temperature_C.reset();
+  if (kind.is_imu) sample.depth_m = sample.depth_std_m = std::nullopt;  // which has the depth
   return sample;
 }
 
@@ -221,20 +191,20 @@ bool DescribedDevice::hand_over(const Kind& kind, Receiver& receiver) {
   const auto utc_s = kind.value(Meaning::utc);
   const auto utc_ns = utc_s ? std::optional(static_cast<std::int64_t>(std::llround(*utc_s * 1e9))) : std::nullopt;
   FrameSink sink(sequence_of(kind.value(Meaning::sequence)), utc_ns, receiver);
-  if (kind.is_imu) sink.take(imu_of(kind));
+  if (kind.is_imu) sink.take(sample_of<ImuSample>(kind));
   if (kind.is_compass) sink.take(compass_of(kind));
   if (kind.is_gps) {
     GpsSample gps = gps_of(kind);
     gps.time_utc_ns = utc_ns;
     sink.take(gps, utc_ns.has_value() && gps.fix != Fix::none);
   }
-  if (kind.is_motor) sink.take(motor_of(kind));
+  if (kind.is_motor) sink.take(sample_of<MotorSample>(kind));
   if (kind.is_dvl) sink.take(dvl_of(kind));
   if (kind.is_depth) sink.take(depth_of(kind));
   if (const auto altitude_m = kind.value(Meaning::altitude); kind.is_altimeter && altitude_m)
     sink.take(AltimeterSample{*altitude_m, kind.std(Meaning::altitude)});
   if (kind.is_power) {
-    const PowerSample power{kind.value(Meaning::voltage), kind.value(Meaning::current)};
+    const auto power = sample_of<PowerSample>(kind);
     if (power.voltage_V || power.current_A) sink.take(power);
   }
   if (const auto temperature_C = kind.value(Meaning::temperature); kind.is_thermometer && temperature_C)

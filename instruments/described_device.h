@@ -52,10 +52,11 @@ class DescribedDevice : public Instrument {
     [[nodiscard]] std::optional<Vector3> vector(Meaning first) const;
   };
 
-  [[nodiscard]] static ImuSample imu_of(const Kind& kind);
+  /// Members by their meaning; the rules between members are those of the functions below.
+  template <class S>
+  [[nodiscard]] static S sample_of(const Kind& kind);
   [[nodiscard]] static CompassSample compass_of(const Kind& kind);
   [[nodiscard]] static GpsSample gps_of(const Kind& kind);
-  [[nodiscard]] static MotorSample motor_of(const Kind& kind);
   [[nodiscard]] static DvlSample dvl_of(const Kind& kind);
   [[nodiscard]] static DepthSample depth_of(const Kind& kind);
   /// Hands over the samples of the newest frame; false when it has none.
