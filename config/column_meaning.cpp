@@ -8,145 +8,111 @@
 namespace navcal::config {
 namespace {
 
-struct MeaningRow {
-  std::string_view name;
-  Measure measure;
-};
+using protocols::described::Dimension;
+using protocols::described::Meaning;
 
-constexpr std::array<MeaningRow, 40> kMeanings{{
-    {"heading", Measure::angle},
-    {"pitch", Measure::angle},
-    {"roll", Measure::angle},
-    {"compass_temperature", Measure::temperature},
-    {"field_x", Measure::field},
-    {"field_y", Measure::field},
-    {"field_z", Measure::field},
-    {"rate_x", Measure::rate},
-    {"rate_y", Measure::rate},
-    {"rate_z", Measure::rate},
-    {"rate_yaw_b", Measure::rate},
-    {"force_x", Measure::force},
-    {"force_y", Measure::force},
-    {"force_z", Measure::force},
-    {"lat", Measure::degrees},
-    {"lon", Measure::degrees},
-    {"height", Measure::length},
-    {"height_msl", Measure::length},
-    {"speed", Measure::speed},
-    {"course", Measure::angle},
-    {"climb", Measure::speed},
-    {"depth", Measure::length},
-    {"imu_depth", Measure::length},
-    {"pressure", Measure::pressure},
-    {"altitude", Measure::length},
-    {"bottom_velocity_x", Measure::speed},
-    {"bottom_velocity_y", Measure::speed},
-    {"bottom_velocity_z", Measure::speed},
-    {"water_velocity_x", Measure::speed},
-    {"water_velocity_y", Measure::speed},
-    {"water_velocity_z", Measure::speed},
-    {"rpm", Measure::turns},
-    {"rpm_commanded", Measure::turns},
-    {"fin_1", Measure::angle},
-    {"fin_2", Measure::angle},
-    {"fin_3", Measure::angle},
-    {"motor_current", Measure::current},
-    {"voltage", Measure::voltage},
-    {"current", Measure::current},
-    {"sensor", Measure::anything},
-}};
+constexpr auto kMeanings = [] {
+  using enum Meaning;
+  return std::array<ColumnMeaning, 40>{{
+      {"heading", heading, "COMPASS"},
+      {"pitch", pitch, "COMPASS"},
+      {"roll", roll, "COMPASS"},
+      {"compass_temperature", temperature, "COMPASS"},
+      {"field_x", field_x, "COMPASS"},
+      {"field_y", field_y, "COMPASS"},
+      {"field_z", field_z, "COMPASS"},
+      {"rate_x", rate_x, "IMU"},
+      {"rate_y", rate_y, "IMU"},
+      {"rate_z", rate_z, "IMU"},
+      {"rate_yaw_b", rate_yaw_b, "IMU"},
+      {"imu_depth", depth, "IMU"},
+      {"force_x", specific_force_x, "IMU"},
+      {"force_y", specific_force_y, "IMU"},
+      {"force_z", specific_force_z, "IMU"},
+      {"lat", latitude, "GPS"},
+      {"lon", longitude, "GPS"},
+      {"height", height, "GPS"},
+      {"height_msl", height_msl, "GPS"},
+      {"speed", speed, "GPS"},
+      {"course", course, "GPS"},
+      {"climb", climb, "GPS"},
+      {"depth", depth, "DEPTH"},
+      {"pressure", pressure, "DEPTH"},
+      {"altitude", altitude, "ALTIMETER"},
+      {"bottom_velocity_x", bottom_velocity_x, "DVL"},
+      {"bottom_velocity_y", bottom_velocity_y, "DVL"},
+      {"bottom_velocity_z", bottom_velocity_z, "DVL"},
+      {"water_velocity_x", water_velocity_x, "DVL"},
+      {"water_velocity_y", water_velocity_y, "DVL"},
+      {"water_velocity_z", water_velocity_z, "DVL"},
+      {"rpm", rpm, "MOTOR"},
+      {"rpm_commanded", rpm_commanded, "MOTOR"},
+      {"fin_1", fin_1, "MOTOR"},
+      {"fin_2", fin_2, "MOTOR"},
+      {"fin_3", fin_3, "MOTOR"},
+      {"motor_current", motor_current, "MOTOR"},
+      {"voltage", voltage, "POWER"},
+      {"current", current, "POWER"},
+      {"sensor", sensor, "SENSOR"},
+  }};
+}();
 
-struct UnitRow {
-  std::string_view name;
-  Measure measure;
-  double factor;
-  double zero = 0;
-};
+/// Degrees in a place, which is in degrees in a sample's text.
+constexpr std::array kPlaceUnits{ColumnUnit{"deg", Dimension::angle},
+                                 ColumnUnit{"rad", Dimension::angle, 1 / (std::numbers::pi / 180)},
+                                 ColumnUnit{"deg*1e7", Dimension::angle, 1e-7}};
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kStandardGravity_m_s2 = 9.80665;
-constexpr double kKnot_m_s = 1852.0 / 3600;
-/// The first unit of each measure is navcal's own, and counts where a column states none.
-constexpr std::array kUnits{UnitRow{"rad", Measure::angle, 1},
-                            UnitRow{"deg", Measure::angle, kDegree},
-                            UnitRow{"deg", Measure::degrees, 1},
-                            UnitRow{"rad", Measure::degrees, 1 / kDegree},
-                            UnitRow{"deg*1e7", Measure::degrees, 1e-7},
-                            UnitRow{"uT", Measure::field, 1},
-                            UnitRow{"nT", Measure::field, 1e-3},
-                            UnitRow{"T", Measure::field, 1e6},
-                            UnitRow{"G", Measure::field, 100},
-                            UnitRow{"mG", Measure::field, 0.1},
-                            UnitRow{"rad/s", Measure::rate, 1},
-                            UnitRow{"deg/s", Measure::rate, kDegree},
-                            UnitRow{"m/s2", Measure::force, 1},
-                            UnitRow{"g", Measure::force, kStandardGravity_m_s2},
-                            UnitRow{"mg", Measure::force, kStandardGravity_m_s2 * 1e-3},
-                            UnitRow{"m", Measure::length, 1},
-                            UnitRow{"cm", Measure::length, 1e-2},
-                            UnitRow{"mm", Measure::length, 1e-3},
-                            UnitRow{"ft", Measure::length, 0.3048},
-                            UnitRow{"m/s", Measure::speed, 1},
-                            UnitRow{"cm/s", Measure::speed, 1e-2},
-                            UnitRow{"mm/s", Measure::speed, 1e-3},
-                            UnitRow{"kn", Measure::speed, kKnot_m_s},
-                            UnitRow{"km/h", Measure::speed, 1 / 3.6},
-                            UnitRow{"Pa", Measure::pressure, 1},
-                            UnitRow{"hPa", Measure::pressure, 100},
-                            UnitRow{"mbar", Measure::pressure, 100},
-                            UnitRow{"kPa", Measure::pressure, 1e3},
-                            UnitRow{"bar", Measure::pressure, 1e5},
-                            UnitRow{"dbar", Measure::pressure, 1e4},
-                            UnitRow{"rpm", Measure::turns, 1},
-                            UnitRow{"rps", Measure::turns, 60},
-                            UnitRow{"V", Measure::voltage, 1},
-                            UnitRow{"mV", Measure::voltage, 1e-3},
-                            UnitRow{"A", Measure::current, 1},
-                            UnitRow{"mA", Measure::current, 1e-3},
-                            UnitRow{"C", Measure::temperature, 1},
-                            UnitRow{"K", Measure::temperature, 1, -273.15}};
+/// Instead of those of descriptions, whose g is that of the simulated vehicles (base/gravity.h).
+constexpr std::array kOwnUnits{ColumnUnit{"T", Dimension::magnetic_field, 1e6},
+                               ColumnUnit{"rps", Dimension::rotation, 60},
+                               ColumnUnit{"g", Dimension::acceleration, kStandardGravity_m_s2},
+                               ColumnUnit{"mg", Dimension::acceleration, kStandardGravity_m_s2 * 1e-3}};
+
+std::vector<ColumnUnit> units_of(Meaning quantity) {
+  if (quantity == Meaning::latitude || quantity == Meaning::longitude)
+    return {kPlaceUnits.begin(), kPlaceUnits.end()};
+  std::vector<ColumnUnit> units;
+  const auto add = [&](const ColumnUnit& unit) {
+    if (unit.dimension == info_of(quantity).dimension) units.push_back(unit);
+  };
+  const auto is_own = [](const ColumnUnit& unit) {
+    return std::any_of(kOwnUnits.begin(), kOwnUnits.end(),
+                       [&](const ColumnUnit& own) { return own.name == unit.name; });
+  };
+  for (const ColumnUnit& unit : protocols::described::all_units()) {
+    if (!is_own(unit)) add(unit);
+  }
+  for (const ColumnUnit& unit : kOwnUnits) add(unit);
+  return units;
+}
 
 }  // namespace
 
-std::optional<CsvMeaning> csv_meaning_named(std::string_view name) {
-  const auto found =
-      std::find_if(kMeanings.begin(), kMeanings.end(), [&](const MeaningRow& row) { return row.name == name; });
-  return found == kMeanings.end() ? std::nullopt
-                                  : std::optional(static_cast<CsvMeaning>(found - kMeanings.begin()));
-}
+std::span<const ColumnMeaning> column_meanings() { return kMeanings; }
 
-Measure measure_of(CsvMeaning meaning) { return kMeanings[static_cast<std::size_t>(meaning)].measure; }
-
-std::vector<std::string> csv_meanings() {
-  std::vector<std::string> names;
-  for (const MeaningRow& row : kMeanings) names.emplace_back(row.name);
-  return names;
-}
-
-bool is_motor_meaning(CsvMeaning meaning) {
-  return meaning >= CsvMeaning::rpm && meaning <= CsvMeaning::motor_current;
-}
-
-std::vector<std::string> motor_meanings() {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < kMeanings.size(); ++i) {
-    if (is_motor_meaning(static_cast<CsvMeaning>(i))) names.emplace_back(kMeanings[i].name);
+const ColumnMeaning* column_meaning_named(std::string_view name) {
+  for (const ColumnMeaning& row : kMeanings) {
+    if (row.name == name) return &row;
   }
-  return names;
+  const auto quantity = protocols::described::meaning_named(name);
+  if (!quantity || quantity == Meaning::temperature)
+    return nullptr;  // of which instrument, only the map's own name says
+  const auto* const found = std::find_if(kMeanings.begin(), kMeanings.end(),
+                                         [&](const ColumnMeaning& row) { return row.quantity == quantity; });
+  return found == kMeanings.end() ? nullptr : found;
 }
 
-std::optional<CsvUnit> csv_unit(Measure measure, std::string_view name) {
-  const auto found = std::find_if(kUnits.begin(), kUnits.end(), [&](const UnitRow& unit) {
-    return unit.measure == measure && unit.name == name;
-  });
-  return found == kUnits.end() ? std::nullopt : std::optional(CsvUnit{found->factor, found->zero});
-}
-
-std::vector<std::string> csv_units_of(Measure measure) {
-  std::vector<std::string> names;
-  for (const UnitRow& unit : kUnits) {
-    if (unit.measure == measure) names.emplace_back(unit.name);
+std::optional<ColumnUnit> column_unit(Meaning quantity, std::string_view name) {
+  for (const ColumnUnit& unit : units_of(quantity)) {
+    if (unit.name == name) return unit;
   }
+  return std::nullopt;
+}
+
+std::vector<std::string> column_units(Meaning quantity) {
+  std::vector<std::string> names;
+  for (const ColumnUnit& unit : units_of(quantity)) names.emplace_back(unit.name);
   return names;
 }
 

@@ -37,8 +37,12 @@ void ColumnReader::take_key(Given& given, const Entry& entry) {
   const auto number = number_of(entry);
   const bool is_list = std::holds_alternative<std::vector<double>>(entry.value);
   if (key == "meaning") {
-    const auto found = text == nullptr ? std::nullopt : csv_meaning_named(*text);
-    if (!found) return complain(entry, fmt::format("one of {} is expected", fmt::join(csv_meanings(), ", ")));
+    const auto* const found = text == nullptr ? nullptr : column_meaning_named(*text);
+    if (found == nullptr) {
+      std::vector<std::string_view> names;
+      for (const ColumnMeaning& meaning : column_meanings()) names.push_back(meaning.name);
+      return complain(entry, fmt::format("one of {} is expected", fmt::join(names, ", ")));
+    }
     given.column.meaning = *found;
     given.has_meaning = true;
   } else if (key == "unit" && text != nullptr) {
@@ -76,24 +80,24 @@ std::vector<CsvColumn> ColumnReader::finish() {
 void ColumnReader::finish_column(const std::string& name, Given& given, std::vector<CsvColumn>& columns) {
   if (given.table.keys.empty()) given.table.keys = {"column", name};
   if (!given.has_meaning) return complain(given.table, "meaning is missing");
-  const Measure measure = measure_of(given.column.meaning);
+  const auto quantity = given.column.meaning.quantity;
   CsvColumn column = given.column;
   column.name = name;
   column.line = given.table.line;
-  CsvUnit unit;
-  if (measure == Measure::anything) {
+  ColumnUnit unit;
+  if (quantity == protocols::described::Meaning::sensor) {
     if (!name_sensor(column, given)) return;
   } else if (given.unit) {
-    const auto found = csv_unit(measure, std::get<std::string>(given.unit->value));
+    const auto found = column_unit(quantity, std::get<std::string>(given.unit->value));
     if (!found)
-      return complain(*given.unit, fmt::format("one of {} is expected", fmt::join(csv_units_of(measure), ", ")));
+      return complain(*given.unit, fmt::format("one of {} is expected", fmt::join(column_units(quantity), ", ")));
     unit = *found;
   }
   if (given.from || given.to) {
     if (!draw_curve(column, given, unit)) return;
   } else {
     column.factor = given.scale * unit.factor;
-    column.offset = given.offset * unit.factor + unit.zero;
+    column.offset = given.offset * unit.factor + unit.offset;
   }
   columns.push_back(std::move(column));
 }
@@ -109,7 +113,7 @@ bool ColumnReader::name_sensor(CsvColumn& column, const Given& given) {
   return false;
 }
 
-bool ColumnReader::draw_curve(CsvColumn& column, const Given& given, const CsvUnit& unit) {
+bool ColumnReader::draw_curve(CsvColumn& column, const Given& given, const ColumnUnit& unit) {
   if (!given.from || !given.to) {
     complain(given.table, given.from ? "\"from\" needs \"to\"" : "\"to\" needs \"from\"");
     return false;
@@ -128,7 +132,8 @@ bool ColumnReader::draw_curve(CsvColumn& column, const Given& given, const CsvUn
     complain(*given.to, fmt::format("as many numbers as \"from\" has are expected: {}", from.size()));
     return false;
   }
-  for (std::size_t i = 0; i < from.size(); ++i) column.curve.push_back({from[i], to[i] * unit.factor + unit.zero});
+  for (std::size_t i = 0; i < from.size(); ++i)
+    column.curve.push_back({from[i], to[i] * unit.factor + unit.offset});
   return true;
 }
 

@@ -34,7 +34,7 @@ class ColumnReader {
   void take_key(Given& given, const Entry& entry);
   void finish_column(const std::string& name, Given& given, std::vector<CsvColumn>& columns);
   [[nodiscard]] bool name_sensor(CsvColumn& column, const Given& given);
-  [[nodiscard]] bool draw_curve(CsvColumn& column, const Given& given, const CsvUnit& unit);
+  [[nodiscard]] bool draw_curve(CsvColumn& column, const Given& given, const ColumnUnit& unit);
   void complain(const Entry& entry, std::string message);
 
   std::vector<Problem>& problems_;

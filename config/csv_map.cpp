@@ -203,10 +203,14 @@ ChannelMap parse_channel_map(std::string_view toml, std::string_view name) {
     }
   }
   ChannelMap map{std::string(name), reader.finish()};
+  std::vector<std::string_view> motor_names;
+  for (const ColumnMeaning& meaning : column_meanings()) {
+    if (meaning.is_motor()) motor_names.push_back(meaning.name);
+  }
   for (const CsvColumn& channel : map.channels) {
-    if (is_motor_meaning(channel.meaning)) continue;
+    if (channel.meaning.is_motor()) continue;
     problems.push_back({channel.line, "column." + channel.name + ".meaning",
-                        fmt::format("one of {} is expected", fmt::join(motor_meanings(), ", "))});
+                        fmt::format("one of {} is expected", fmt::join(motor_names, ", "))});
   }
   refuse(std::move(problems), name);
   return map;

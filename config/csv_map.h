@@ -21,7 +21,7 @@ struct CurvePoint {
 /// A column of a CSV file, or a channel of another log ("RCOU.C1").
 struct CsvColumn {
   std::string name;  ///< as the header line has it; "1", "2", ... where there is none
-  CsvMeaning meaning = CsvMeaning::sensor;
+  ColumnMeaning meaning;
   double factor = 1;     ///< of the number in the file, to navcal's unit of the meaning; degrees of lat and lon
   double offset = 0;     ///< added afterwards, in navcal's unit
   int instance = 0;      ///< 0 for the first instrument of its kind

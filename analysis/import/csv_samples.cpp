@@ -5,56 +5,58 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
+#include <utility>
 
 #include "base/angles.h"
 
 namespace navcal::analysis {
 namespace {
 
-using config::CsvMeaning;
+using instruments::Form;
+using protocols::described::Meaning;
 using protocols::samples_line::LineWriter;
+using Shape = CsvSamples::Shape;
 
-/// Where a meaning goes: class, source instrument and key of the line.
+/// Where a meaning goes. Of a list, it is the first of three meanings in a row.
 struct Target {
-  CsvMeaning meaning;
-  std::string_view class_name;
-  PortKind port;
   std::string_view key;
-  CsvSamples::Shape shape = CsvSamples::Shape::number;  ///< others: this is the first of three meanings in a row
+  Shape shape = Shape::number;
+  Form form = Form::plain;
 };
 
-constexpr std::array kTargets{
-    Target{CsvMeaning::heading, "COMPASS", PortKind::compass, "heading_rad"},
-    Target{CsvMeaning::pitch, "COMPASS", PortKind::compass, "pitch_rad"},
-    Target{CsvMeaning::roll, "COMPASS", PortKind::compass, "roll_rad"},
-    Target{CsvMeaning::compass_temperature, "COMPASS", PortKind::compass, "temperature_C"},
-    Target{CsvMeaning::field_x, "COMPASS", PortKind::compass, "field_body_uT", CsvSamples::Shape::vector},
-    Target{CsvMeaning::rate_x, "IMU", PortKind::imu, "rate_rad_s", CsvSamples::Shape::vector},
-    Target{CsvMeaning::rate_yaw_b, "IMU", PortKind::imu, "yaw_rate_b_rad_s"},
-    Target{CsvMeaning::imu_depth, "IMU", PortKind::imu, "depth_m"},
-    Target{CsvMeaning::force_x, "IMU", PortKind::imu, "specific_force_m_s2", CsvSamples::Shape::vector},
-    Target{CsvMeaning::lat, "GPS", PortKind::gps, "lat"},
-    Target{CsvMeaning::lon, "GPS", PortKind::gps, "lon"},
-    Target{CsvMeaning::height, "GPS", PortKind::gps, "height_m"},
-    Target{CsvMeaning::height_msl, "GPS", PortKind::gps, "height_msl_m"},
-    Target{CsvMeaning::speed, "GPS", PortKind::gps, "speed_m_s"},
-    Target{CsvMeaning::course, "GPS", PortKind::gps, "course_rad"},
-    Target{CsvMeaning::climb, "GPS", PortKind::gps, "climb_m_s"},
-    Target{CsvMeaning::depth, "DEPTH", PortKind::depth, "depth_m"},
-    Target{CsvMeaning::pressure, "DEPTH", PortKind::depth, "pressure_Pa"},
-    Target{CsvMeaning::altitude, "ALTIMETER", PortKind::altimeter, "altitude_m"},
-    Target{CsvMeaning::bottom_velocity_x, "DVL", PortKind::dvl, "bottom_velocity_m_s", CsvSamples::Shape::vector},
-    Target{CsvMeaning::water_velocity_x, "DVL", PortKind::dvl, "water_velocity_m_s", CsvSamples::Shape::vector},
-    Target{CsvMeaning::rpm, "MOTOR", PortKind::motor, "rpm"},
-    Target{CsvMeaning::rpm_commanded, "MOTOR", PortKind::motor, "rpm_commanded"},
-    Target{CsvMeaning::fin_1, "MOTOR", PortKind::motor, "fins_rad", CsvSamples::Shape::three},
-    Target{CsvMeaning::motor_current, "MOTOR", PortKind::motor, "current_A"},
-    Target{CsvMeaning::voltage, "POWER", PortKind::battery, "voltage_V"},
-    Target{CsvMeaning::current, "POWER", PortKind::battery, "current_A"},
-};
+template <class T>
+constexpr Shape kShapeOf = Shape::number;
+template <>
+constexpr Shape kShapeOf<std::optional<instruments::Vector3>> = Shape::vector;
+template <>
+constexpr Shape kShapeOf<std::array<std::optional<double>, 3>> = Shape::three;
 
-/// Angles that are written from 0 to 360 degrees, whatever the file has.
-bool is_heading(std::string_view key) { return key == "heading_rad" || key == "course_rad"; }
+/// nullopt for another than the first of a list, and for a sensor.
+std::optional<Target> target_of(const config::ColumnMeaning& meaning) {
+  std::optional<Target> target;
+  instruments::for_each_kind([&]<class S>(std::type_identity<S>) {
+    if (instruments::kKind<S>.class_name != meaning.sample) return;
+    instruments::for_each_field<S>([&]<class Owner, class T>(const instruments::kind::Field<Owner, T>& field) {
+      if (field.meaning == meaning.quantity && field.quantity.role == instruments::Role::measured)
+        target = Target{field.key, kShapeOf<T>, field.quantity.form};
+    });
+  });
+  return target;
+}
+
+PortKind port_of(std::string_view class_name) {
+  constexpr std::array<std::pair<std::string_view, PortKind>, 8> kPorts{{{"COMPASS", PortKind::compass},
+                                                                         {"IMU", PortKind::imu},
+                                                                         {"GPS", PortKind::gps},
+                                                                         {"DEPTH", PortKind::depth},
+                                                                         {"ALTIMETER", PortKind::altimeter},
+                                                                         {"DVL", PortKind::dvl},
+                                                                         {"MOTOR", PortKind::motor},
+                                                                         {"POWER", PortKind::battery}}};
+  return std::find_if(kPorts.begin(), kPorts.end(), [&](const auto& row) { return row.first == class_name; })
+      ->second;
+}
 
 }  // namespace
 
@@ -69,34 +71,38 @@ CsvSamples::Group& CsvSamples::group_of(std::string_view class_name, std::string
 }
 
 CsvSamples::CsvSamples(const config::CsvMap& map) {
-  const auto place_of = [&](CsvMeaning meaning, int instance) -> std::optional<std::size_t> {
+  const auto place_of = [&](std::string_view sample, Meaning quantity,
+                            int instance) -> std::optional<std::size_t> {
     for (std::size_t i = 0; i < map.columns.size(); ++i) {
-      if (map.columns[i].meaning == meaning && map.columns[i].instance == instance) return i;
+      const auto& [name, its_quantity, its_sample] = map.columns[i].meaning;
+      if (its_sample == sample && its_quantity == quantity && map.columns[i].instance == instance) return i;
     }
     return std::nullopt;
   };
   constexpr int kInstances = 9;
-  for (const Target& target : kTargets) {
+  for (const config::ColumnMeaning& meaning : config::column_meanings()) {
+    const auto target = target_of(meaning);
+    if (!target) continue;
     for (int instance = 0; instance < kInstances; ++instance) {
-      Member member{target.shape, {}, std::string(target.key)};
-      const std::size_t count = target.shape == Shape::number ? 1 : member.columns.size();
+      Member member{target->shape, target->form, {}, std::string(target->key)};
+      const std::size_t count = target->shape == Shape::number ? 1 : member.columns.size();
       std::size_t found = 0;
       for (std::size_t i = 0; i < count; ++i) {
-        member.columns[i] =
-            place_of(static_cast<CsvMeaning>(static_cast<std::size_t>(target.meaning) + i), instance);
+        member.columns[i] = place_of(
+            meaning.sample, static_cast<Meaning>(static_cast<std::size_t>(meaning.quantity) + i), instance);
         if (member.columns[i]) ++found;
       }
-      if (found == 0 || (target.shape == Shape::vector && found < count)) continue;
-      group_of(target.class_name, port_name(target.port, instance)).members.push_back(std::move(member));
+      if (found == 0 || (target->shape == Shape::vector && found < count)) continue;
+      group_of(meaning.sample, port_name(port_of(meaning.sample), instance)).members.push_back(std::move(member));
     }
   }
   for (std::size_t i = 0; i < map.columns.size(); ++i) {
     const auto& column = map.columns[i];
-    if (column.meaning != CsvMeaning::sensor) continue;
+    if (column.meaning.quantity != Meaning::sensor) continue;
     groups_.push_back({"SENSOR",
                        std::string(port_name(PortKind::sensors, column.instance)),
                        fmt::format("SENSOR {}", column.quantity),
-                       {{Shape::number, {i}, "value"}},
+                       {{Shape::number, Form::plain, {i}, "value"}},
                        column.quantity,
                        column.unit});
   }
@@ -110,7 +116,7 @@ bool CsvSamples::write(const Member& member, const std::vector<std::optional<dou
   switch (member.shape) {
     case Shape::number:
       if (!three[0]) return false;
-      line.number(member.key, is_heading(member.key) ? base::as_heading(*three[0]) : *three[0]);
+      line.number(member.key, member.form == Form::direction ? base::as_heading(*three[0]) : *three[0]);
       return true;
     case Shape::vector:
       if (!three[0] || !three[1] || !three[2]) return false;

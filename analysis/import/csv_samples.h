@@ -11,6 +11,7 @@
 #include "analysis/import/import_sink.h"
 #include "analysis/import/port_name.h"
 #include "config/csv_map.h"
+#include "instruments/sample_fields.h"
 
 namespace navcal::analysis {
 
@@ -31,6 +32,7 @@ class CsvSamples {
  private:
   struct Member {
     Shape shape = Shape::number;
+    instruments::Form form = instruments::Form::plain;
     std::array<std::optional<std::size_t>, 3> columns{};  ///< the first one, of a number
     std::string key;
   };

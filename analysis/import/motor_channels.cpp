@@ -13,7 +13,7 @@
 namespace navcal::analysis {
 namespace {
 
-using config::CsvMeaning;
+using protocols::described::Meaning;
 using protocols::samples_line::LineWriter;
 
 /// Values of one MOTOR sample, as the channels of a message give them.
@@ -21,13 +21,13 @@ struct MotorValues {
   std::optional<double> rpm, rpm_commanded, current_A;
   std::array<std::optional<double>, 3> fins_rad;
 
-  void set(CsvMeaning meaning, double value) {
-    if (meaning == CsvMeaning::rpm) rpm = value;
-    if (meaning == CsvMeaning::rpm_commanded) rpm_commanded = value;
-    if (meaning == CsvMeaning::motor_current) current_A = value;
-    if (meaning == CsvMeaning::fin_1) fins_rad[0] = value;
-    if (meaning == CsvMeaning::fin_2) fins_rad[1] = value;
-    if (meaning == CsvMeaning::fin_3) fins_rad[2] = value;
+  void set(Meaning meaning, double value) {
+    if (meaning == Meaning::rpm) rpm = value;
+    if (meaning == Meaning::rpm_commanded) rpm_commanded = value;
+    if (meaning == Meaning::motor_current) current_A = value;
+    if (meaning == Meaning::fin_1) fins_rad[0] = value;
+    if (meaning == Meaning::fin_2) fins_rad[1] = value;
+    if (meaning == Meaning::fin_3) fins_rad[2] = value;
   }
   void write(LineWriter& line) const {
     line.number("rpm", rpm).number("rpm_commanded", rpm_commanded).number("current_A", current_A);
@@ -84,7 +84,7 @@ bool MotorChannels::emit(std::string_view message, const MemberReader& read, con
       if (!number || !std::isfinite(*number)) continue;
       ++channel.values;
       if (channel.column.is_beyond(*number)) ++channel.beyond;
-      values.set(channel.column.meaning, channel.column.value(*number));
+      values.set(channel.column.meaning.quantity, channel.column.value(*number));
       has_value = true;
     }
     if (!has_value) continue;

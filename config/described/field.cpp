@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "config/column_meaning.h"
 #include "config/described/description_file.h"
 #include "config/described/parts.h"
 #include "config/suggestion.h"
@@ -33,6 +34,9 @@ std::vector<std::string> meaning_names() {
   std::vector<std::string> names;
   for (std::size_t i = 2; i < protocols::described::kMeaningCount; ++i)  // without none and sensor
     names.emplace_back(info_of(static_cast<Meaning>(i)).name);
+  for (const ColumnMeaning& column : column_meanings()) {
+    if (column.quantity != Meaning::sensor) names.emplace_back(column.name);
+  }
   return names;
 }
 
@@ -50,8 +54,10 @@ void read_meaning(TableReader& table, Field& field) {
   if (own && !is_field_name(*own))
     table.complain(
         "name", fmt::format("{} is not 1 to {} of a-z, A-Z, 0-9, _, . and -", to_toml_text(*own), kLongestName));
-  if (const auto word = table.choice("meaning", meaning_names()))
-    field.meaning = protocols::described::meaning_named(*word).value_or(Meaning::none);
+  if (const auto word = table.choice("meaning", meaning_names())) {
+    const auto* const column = column_meaning_named(*word);
+    field.meaning = protocols::described::meaning_named(*word).value_or(column ? column->quantity : Meaning::none);
+  }
   const auto sensor = table.text("sensor");
   if (sensor) {
     if (table.has("meaning")) table.complain("sensor", "only one of meaning and sensor may be given");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "config/error.h"
 
 namespace navcal::config {
@@ -25,10 +27,25 @@ TEST(CsvMap, ReadsColumnsWithTheirUnits) {
   EXPECT_EQ(map.delimiter, ';');
   EXPECT_EQ(map.time, CsvTime::unix_ms);
   ASSERT_EQ(map.columns.size(), 1U);
-  EXPECT_EQ(map.columns[0].meaning, CsvMeaning::field_x);
+  EXPECT_EQ(map.columns[0].meaning.name, "field_x");
   EXPECT_DOUBLE_EQ(map.columns[0].factor, 2e-3);
   EXPECT_DOUBLE_EQ(map.columns[0].offset, 5e-3);
   EXPECT_EQ(map.columns[0].instance, 1);
+}
+
+TEST(CsvMap, TakesTheNamesAndUnitsOfDescriptions) {
+  const auto column = [](const std::string& keys) {
+    return parse_csv_map("[time]\ncolumn = \"t\"\n[column.c]\n" + keys, "map.toml").columns.at(0);
+  };
+  const CsvColumn rate = column("meaning = \"rate.x\"\nunit = \"deg/h\"\n");
+  EXPECT_EQ(rate.meaning.name, "rate_x");
+  EXPECT_DOUBLE_EQ(rate.factor, std::numbers::pi / 180 / 3600);
+  EXPECT_DOUBLE_EQ(column("meaning = \"specific_force.z\"\nunit = \"g\"\n").factor, 9.80665);
+  EXPECT_EQ(column("meaning = \"depth\"\n").meaning.sample, "DEPTH");
+  EXPECT_EQ(column("meaning = \"imu_depth\"\n").meaning.sample, "IMU");
+  EXPECT_NE(map_problems("[time]\ncolumn = \"t\"\n[column.c]\nmeaning = \"temperature\"\n").find("one of heading"),
+            std::string::npos)
+      << "it may be of any instrument";
 }
 
 TEST(CsvMap, ProblemsNameLineAndKey) {
@@ -39,7 +56,8 @@ TEST(CsvMap, ProblemsNameLineAndKey) {
   EXPECT_NE(problems.find("map.toml:1: delimitter: unknown key; did you mean delimiter?"), std::string::npos)
       << problems;
   EXPECT_NE(problems.find("map.toml:4: time.format: one of unix_s"), std::string::npos) << problems;
-  EXPECT_NE(problems.find("map.toml:7: column.a.unit: one of rad, deg is expected"), std::string::npos)
+  EXPECT_NE(problems.find("map.toml:7: column.a.unit: one of rad, deg, arcmin, mils, counts16 is expected"),
+            std::string::npos)
       << problems;
   EXPECT_NE(problems.find("column.b: meaning is missing"), std::string::npos) << problems;
   EXPECT_NE(problems.find("map.toml:11: column.c.meaning: one of heading, pitch"), std::string::npos) << problems;

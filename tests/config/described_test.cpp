@@ -80,6 +80,12 @@ TEST(DescriptionFile, EverythingOfABinaryFrame) {
   EXPECT_EQ(kind.fields.at(1).bits, 4);
 }
 
+TEST(DescriptionFile, TakesTheNamesOfAMapOfColumns) {
+  const Description device = parse_description(
+      binary("field = [{ meaning = \"rate_yaw_b\", at = 2, type = \"i16\", unit = \"deg/s\" }]\n"), "d.toml");
+  EXPECT_EQ(device.kinds[0].fields[0].meaning, Meaning::rate_yaw_b);
+}
+
 TEST(DescriptionErrors, FormDecidesWhatIsLookedAt) {
   EXPECT_EQ(complaints_about("[[frame]]\nid = \"A\"\n"), Lines{"d.toml:1: form: missing; known: binary or text"});
   EXPECT_EQ(complaints_about("form = \"binry\"\nframe = []\n").front(),
