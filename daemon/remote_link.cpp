@@ -9,7 +9,6 @@
 
 #include "daemon/json_text.h"
 #include "daemon/start_error.h"
-#include "ports/port.h"
 
 namespace navcal::daemon {
 namespace {
@@ -67,6 +66,15 @@ ControlRequest request_of(const link::Command& command, const std::string& lease
   return request;
 }
 
+config::PortSettings line_settings(const config::RemoteSettings& settings) {
+  config::PortSettings port;
+  port.name = "remote";
+  port.path = settings.path;
+  port.baud = settings.baud;
+  if (settings.path.empty()) port.address = "tcp-listen:" + settings.listen;
+  return port;
+}
+
 std::string_view name_of(link::Vehicle::Peer peer) {
   switch (peer) {
     case link::Vehicle::Peer::alive: return "alive";
@@ -81,15 +89,14 @@ std::string_view name_of(link::Vehicle::Peer peer) {
 RemoteLink::RemoteLink(const boost::asio::any_io_executor& executor, const config::RemoteSettings& settings,
                        RemoteOwner& owner)
     : settings_(settings), owner_(owner), has_key_(!settings.key_file.empty()), vehicle_(end_options(settings)),
-      line_(make_remote_line(executor, settings_,
-                             {[this](std::int64_t now_ns, protocols::Bytes bytes) { on_bytes(now_ns, bytes); },
-                              [this](std::int64_t now_ns, bool is_open, std::string_view words) {
-                                on_line(now_ns, is_open, words);
-                              }})),
-      timer_(executor, [this] { drive(ports::monotonic_ns()); }), beat_timer_(executor, [this] { beat(); }) {}
+      line_(executor, line_settings(settings_), listener()),
+      timer_(executor, [this] { drive(ports::monotonic_ns()); }), beat_timer_(executor, [this] { beat(); }) {
+  const std::string refusal = settings_.path.empty() ? line_.listen() : std::string();
+  if (!refusal.empty()) throw StartError(fmt::format("remote.listen {}: {}", settings_.listen, refusal));
+}
 
 void RemoteLink::start() {
-  line_->start();
+  line_.start();
   drive(ports::monotonic_ns());
 }
 
@@ -97,12 +104,18 @@ void RemoteLink::stop() {
   alive_.reset();
   timer_.stop();
   beat_timer_.stop();
-  line_->stop();
+  line_.stop();
 }
 
-void RemoteLink::on_line(std::int64_t now_ns, bool is_open, std::string_view words) {
-  is_open_ = is_open;
-  owner_.on_remote_event(now_ns, is_open ? "info" : "warning", is_open ? "remote.open" : "remote.lost", words);
+void RemoteLink::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
+  is_open_ = true;
+  owner_.on_remote_event(now_ns, "info", "remote.open", port.path);
+}
+
+void RemoteLink::on_lost(std::int64_t now_ns, std::string_view reason) {
+  // That nobody has connected yet is no fault.
+  if (!std::exchange(is_open_, false) && settings_.path.empty()) return;
+  owner_.on_remote_event(now_ns, "warning", "remote.lost", reason);
 }
 
 void RemoteLink::on_bytes(std::int64_t now_ns, protocols::Bytes bytes) {
@@ -120,7 +133,7 @@ void RemoteLink::drive(std::int64_t now_ns) {
     answer(*request, now_ns);
   }
   if (vehicle_.is_report_due(now_ns)) vehicle_.report(now_ns, link::encode_report(owner_.remote_report(now_ns)));
-  while (const auto frame = vehicle_.next(now_ns)) line_->send(*frame);
+  while (const auto frame = vehicle_.next(now_ns)) line_.send(*frame);
   timer_.arm(vehicle_.deadline_ns());
 }
 

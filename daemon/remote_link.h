@@ -11,9 +11,9 @@
 #include "config/settings.h"
 #include "daemon/control_request.h"
 #include "daemon/lazy_timer.h"
-#include "daemon/remote_line.h"
 #include "link/report.h"
 #include "link/vehicle.h"
+#include "ports/port.h"
 
 namespace navcal::daemon {
 
@@ -36,7 +36,7 @@ class RemoteOwner {
 };
 
 /// The vehicle's end of the remote link at work (docs/remote.md): its line, its timer, and what operators ask for.
-class RemoteLink {
+class RemoteLink : private ports::PortListener {
  public:
   /// Throws StartError when the key cannot be read or the address is taken.
   RemoteLink(const boost::asio::any_io_executor& executor, const config::RemoteSettings& settings,
@@ -48,8 +48,11 @@ class RemoteLink {
   [[nodiscard]] std::string health() const;
 
  private:
-  void on_bytes(std::int64_t now_ns, protocols::Bytes bytes);
-  void on_line(std::int64_t now_ns, bool is_open, std::string_view words);
+  void on_opened(std::int64_t now_ns, const ports::OpenPort& port) override;
+  void on_bytes(std::int64_t now_ns, protocols::Bytes bytes) override;
+  void on_sent(std::int64_t, protocols::Bytes) override {}
+  void on_lost(std::int64_t now_ns, std::string_view reason) override;
+  ports::PortListener& listener() { return *this; }
   void drive(std::int64_t now_ns);
   void take_events(std::int64_t now_ns);
   void link_is_silent(std::int64_t now_ns);
@@ -72,7 +75,7 @@ class RemoteLink {
   bool is_open_ = false;
   bool is_answering_ = false;  ///< a request waits for its reply; the next one waits for that
   std::shared_ptr<char> alive_ = std::make_shared<char>();  ///< a reply may come after the end
-  std::unique_ptr<RemoteLine> line_;
+  ports::Port line_;
   LazyTimer timer_;
   LazyTimer beat_timer_;
   std::int64_t last_beat_ns_ = 0, beat_before_ns_ = 0;

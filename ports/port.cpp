@@ -62,7 +62,9 @@ struct Port::State : std::enable_shared_from_this<Port::State> {
   /// Empty, or why there is no line.
   std::string take(std::variant<std::unique_ptr<Line>, std::string> opened);
   awaitable<std::string> connect(const config::NetworkAddress& address);
-  awaitable<std::string> accept(const config::NetworkAddress& address);
+  /// Empty, or why nobody can connect.
+  std::string listen();
+  awaitable<std::string> accept();
   /// True when the socket is ready; false when it is not within the limit (0: none), or the port was stopped.
   awaitable<bool> ready(int socket, asio::posix::stream_descriptor::wait_type type, milliseconds limit);
   /// A device that connects while another one is connected takes its place.
@@ -120,7 +122,7 @@ awaitable<std::string> Port::State::open(milliseconds& again_after) {
     again_after = kTryAgain;
     why = co_await connect(*address);
   } else if (address->kind == config::NetworkAddress::Kind::tcp_listen) {
-    why = co_await accept(*address);
+    why = co_await accept();
   } else if (address->kind == config::NetworkAddress::Kind::unix_listen) {
     why = take(open_sample_socket(address->host));
   } else {
@@ -177,18 +179,22 @@ awaitable<std::string> Port::State::connect(const config::NetworkAddress& to) {
   co_return take(finish_connect(to, std::move(socket)));
 }
 
-awaitable<std::string> Port::State::accept(const config::NetworkAddress& at) {
+std::string Port::State::listen() {
+  if (listening) return {};
+  auto opened = listen_at(*address);
+  if (auto* refusal = std::get_if<std::string>(&opened)) return std::move(*refusal);
+  listening = std::get<base::Descriptor>(std::move(opened));
+  door.assign(listening.get());
+  return {};
+}
+
+awaitable<std::string> Port::State::accept() {
   if (newcomer) {
     line = std::move(newcomer);
     watch_door();
     co_return std::string{};
   }
-  if (!listening) {
-    auto opened = listen_at(at);
-    if (auto* refusal = std::get_if<std::string>(&opened)) co_return std::move(*refusal);
-    listening = std::get<base::Descriptor>(std::move(opened));
-    door.assign(listening.get());
-  }
+  if (std::string refusal = listen(); !refusal.empty()) co_return refusal;
   tell(fmt::format("{}: waiting for a device that connects", settings.address));
   while (!stopped && !line) {
     const auto [error] = co_await door.async_wait(asio::posix::stream_descriptor::wait_read, kNoThrow);
@@ -304,6 +310,8 @@ Port::Port(asio::any_io_executor executor, config::PortSettings settings, PortLi
     : state_(std::make_shared<State>(std::move(executor), std::move(settings), listener)) {}
 
 Port::~Port() { stop(); }
+
+std::string Port::listen() { return state_->address ? state_->listen() : "no address"; }
 
 void Port::start() { asio::co_spawn(state_->timer.get_executor(), state_->run(state_), asio::detached); }
 

@@ -47,6 +47,8 @@ class Port {
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
+  /// Listens from now on, before start(), for the device that connects. Empty, or why it cannot.
+  [[nodiscard]] std::string listen();
   void start();
   /// Queues bytes for sending, at most 4 KiB. Bytes for which there is no room are dropped silently as a whole,
   /// as are all bytes while the port is away.
