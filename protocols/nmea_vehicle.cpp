@@ -151,7 +151,7 @@ void append_gsa(std::string& out, const StatedPosition& position, std::span<cons
   line.empty(static_cast<int>(Gsa::kSlots - sent));
   line.number(position.pdop, 2);
   line.number(position.hdop, 2);
-  line.empty(1);
+  line.number(position.vdop, 2);
 }
 
 void append_gst(std::string& out, const StatedPosition& position) {
@@ -210,6 +210,16 @@ void append_dpt(std::string& out, double depth_m, std::optional<double> offset_m
   line.number(depth_m, 2);
   line.number(offset_m, 2);
   line.empty(1);
+}
+
+void append_dbt(std::string& out, std::optional<double> distance_m) {
+  Line line(out, "SD", "DBT");
+  line.empty(1);
+  line.letter('f');
+  line.number(distance_m, 2);
+  line.letter('M');
+  line.empty(1);
+  line.letter('F');
 }
 
 void append_vhw(std::string& out, std::optional<double> true_deg, std::optional<double> magnetic_deg,

@@ -27,7 +27,7 @@ struct StatedPosition {
   std::optional<double> geoid_separation_m;           ///< of mean sea level above the ellipsoid
   std::optional<double> speed_m_s, course_deg;        ///< over ground, from true north
   std::optional<double> variation_deg;                ///< magnetic, east positive
-  std::optional<double> pdop, hdop;
+  std::optional<double> pdop, hdop, vdop;
   unsigned satellites = 0;  ///< in use
   std::optional<double> north_std_m, east_std_m, height_std_m;
 
@@ -61,6 +61,8 @@ void append_hdg(std::string& out, double sensor_deg, std::optional<double> devia
 void append_rot(std::string& out, double rate_deg_min);
 /// SDDPT: depth of the water below the transducer; `offset_m` is from the transducer up to the water line.
 void append_dpt(std::string& out, double depth_m, std::optional<double> offset_m);
+/// SDDBT: distance from the transducer to the floor; nullopt: there was no echo.
+void append_dbt(std::string& out, std::optional<double> distance_m);
 /// VWVHW: speed through the water ahead, with the headings that are known.
 void append_vhw(std::string& out, std::optional<double> true_deg, std::optional<double> magnetic_deg,
                 double speed_m_s);

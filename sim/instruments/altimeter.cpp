@@ -2,8 +2,9 @@
 #include "sim/instruments/altimeter.h"
 
 #include <cmath>
+#include <string>
 
-#include "protocols/nmea_encode.h"
+#include "protocols/nmea_vehicle.h"
 #include "sim/rotation.h"
 
 namespace navcal::sim {
@@ -32,7 +33,9 @@ std::optional<double> Altimeter::measure_m(std::int64_t t_ns) {
 
 void Altimeter::advance(std::int64_t t_ns, std::vector<Emission>& out) {
   while (ticks_.next_ns() <= t_ns) {
-    line_.put(ticks_.next_ns(), options_.baud, protocols::nmea::encode_dbt(measure_m(ticks_.next_ns())), out);
+    std::string sentence;
+    protocols::nmea::append_dbt(sentence, measure_m(ticks_.next_ns()));
+    line_.put(ticks_.next_ns(), options_.baud, {sentence.begin(), sentence.end()}, out);
     ticks_.pass();
   }
 }

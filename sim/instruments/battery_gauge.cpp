@@ -2,8 +2,10 @@
 #include "sim/instruments/battery_gauge.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
-#include "protocols/nmea_encode.h"
+#include "protocols/nmea_vehicle.h"
 
 namespace navcal::sim {
 
@@ -24,7 +26,11 @@ void BatteryGauge::advance(std::int64_t t_ns, std::vector<Emission>& out) {
     drawn_ns_ = now_ns;
     const double voltage_V = battery_.voltage_V(motor_A) + noise_.normal(options_.voltage_noise_V);
     const double current_A = battery_.current_A(motor_A) + noise_.normal(options_.current_noise_A);
-    line_.put(now_ns, options_.baud, protocols::nmea::encode_battery(std::max(0.0, voltage_V), current_A), out);
+    const std::array gauges{protocols::nmea::StatedTransducer{'U', std::max(0.0, voltage_V), 3, 'V', "BATTERY"},
+                            protocols::nmea::StatedTransducer{'I', current_A, 3, 'A', "BATTERY"}};
+    std::string sentence;
+    protocols::nmea::append_xdr(sentence, gauges);
+    line_.put(now_ns, options_.baud, {sentence.begin(), sentence.end()}, out);
     ticks_.pass();
   }
 }

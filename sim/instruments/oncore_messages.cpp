@@ -2,8 +2,10 @@
 #include "sim/instruments/oncore_messages.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
-#include "protocols/nmea_encode.h"
+#include "protocols/nmea_vehicle.h"
 #include "protocols/oncore_encode.h"
 #include "sim/instruments/constellation.h"
 
@@ -88,30 +90,35 @@ std::vector<std::uint8_t> cj_message() {
 
 std::vector<std::uint8_t> nmea_sentences(const GpsReading& reading, const ReceiverTime& time) {
   namespace nmea = protocols::nmea;
-  nmea::Navigation navigation;
-  navigation.date = date_of(time.reported_ns);
-  navigation.time = time_of(time.reported_ns);
-  navigation.fix = reading.fixed ? fix_of(reading) : protocols::Fix::none;
-  navigation.latitude_deg = reading.latitude_deg;
-  navigation.longitude_deg = reading.longitude_deg;
-  navigation.altitude_m = reading.height_m;
-  navigation.speed_m_s = reading.speed_m_s;
-  navigation.course_deg = reading.course_deg;
-  navigation.pdop = kSkyPdop * reading.degraded;
-  navigation.hdop = kSkyHdop * reading.degraded;
-  navigation.vdop = kSkyVdop * reading.degraded;
-  nmea::Satellites satellites;
+  nmea::StatedPosition position;
+  position.date = date_of(time.reported_ns);
+  position.time = time_of(time.reported_ns);
+  if (reading.fixed) {
+    position.fix = fix_of(reading);
+    position.latitude_deg = reading.latitude_deg;
+    position.longitude_deg = reading.longitude_deg;
+    position.altitude_m = reading.height_m;
+    position.geoid_separation_m = 0;
+    position.speed_m_s = reading.speed_m_s;
+    position.course_deg = reading.course_deg;
+    position.pdop = kSkyPdop * reading.degraded;
+    position.hdop = kSkyHdop * reading.degraded;
+    position.vdop = kSkyVdop * reading.degraded;
+  }
+  std::vector<nmea::StatedSatellite> satellites;
+  std::vector<std::uint16_t> used;
   for (std::size_t i = 0; i < kSky.size(); ++i) {
     const SkySatellite& satellite = kSky[i];
-    satellites.push_back(
-        {satellite.prn, satellite.elevation_deg, satellite.azimuth_deg, satellite.cn0_dBHz, in_use(reading, i)});
+    satellites.push_back({satellite.prn, satellite.elevation_deg, satellite.azimuth_deg, satellite.cn0_dBHz});
+    if (in_use(reading, i)) used.push_back(satellite.prn);
   }
-  std::vector<std::uint8_t> sentences;
-  for (const auto& sentence : {nmea::encode_gga(navigation, satellites), nmea::encode_rmc(navigation),
-                               nmea::encode_gsa(navigation, satellites), nmea::encode_gsv(satellites)}) {
-    sentences.insert(sentences.end(), sentence.begin(), sentence.end());
-  }
-  return sentences;
+  position.satellites = static_cast<unsigned>(used.size());
+  std::string sentences;
+  append_gga(sentences, position);
+  append_rmc(sentences, position);
+  append_gsa(sentences, position, used);
+  append_gsv(sentences, position.talker, satellites);
+  return {sentences.begin(), sentences.end()};
 }
 
 }  // namespace navcal::sim

@@ -6,9 +6,9 @@
 
 #include "protocols/checked_line.h"
 #include "protocols/gps_stream.h"
-#include "protocols/nmea_encode.h"
 #include "protocols/oncore_command.h"
 #include "protocols/oncore_encode.h"
+#include "tests/protocols/receiver_sentences.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
 

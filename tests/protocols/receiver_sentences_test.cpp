@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocols/nmea_encode.h"
+#include "tests/protocols/receiver_sentences.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace navcal::protocols::test {
 namespace {
 
-TEST(NmeaEncode, GgaComesBackAsItWasEncoded) {
+TEST(ReceiverSentences, GgaComesBackAsItWasEncoded) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
     const auto sent = random_navigation(random);
@@ -27,7 +27,7 @@ TEST(NmeaEncode, GgaComesBackAsItWasEncoded) {
   }
 }
 
-TEST(NmeaEncode, RmcAndVtgComeBackAsTheyWereEncoded) {
+TEST(ReceiverSentences, RmcAndVtgComeBackAsTheyWereEncoded) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const auto sent = random_navigation(random);
@@ -48,7 +48,7 @@ TEST(NmeaEncode, RmcAndVtgComeBackAsTheyWereEncoded) {
   }
 }
 
-TEST(NmeaEncode, GsaAndZdaComeBackAsTheyWereEncoded) {
+TEST(ReceiverSentences, GsaAndZdaComeBackAsTheyWereEncoded) {
   Random random(3);
   for (int i = 0; i < 500; ++i) {
     const auto sent = random_navigation(random);
@@ -66,7 +66,7 @@ TEST(NmeaEncode, GsaAndZdaComeBackAsTheyWereEncoded) {
   }
 }
 
-TEST(NmeaEncode, SatellitesInViewFillAsManySentencesAsTheyNeed) {
+TEST(ReceiverSentences, SatellitesInViewFillAsManySentencesAsTheyNeed) {
   Random random(4);
   for (int i = 0; i < 200; ++i) {
     const auto sent = random_satellites(random);
@@ -88,7 +88,7 @@ TEST(NmeaEncode, SatellitesInViewFillAsManySentencesAsTheyNeed) {
   }
 }
 
-TEST(NmeaEncode, MinutesNeverReachSixty) {
+TEST(ReceiverSentences, MinutesNeverReachSixty) {
   nmea::Navigation navigation;
   navigation.date = {2026, 11, 21};
   navigation.fix = Fix::fix_3d;

@@ -11,7 +11,8 @@
 
 namespace navcal::protocols::nmea {
 
-/// State of a receiver, for the sentences of the emulator and the tests.
+/// State of a receiver. These sentences are written apart from those of navcal, which the decoder would find right
+/// by the same mistake.
 struct Navigation {
   Date date;
   TimeOfDay time;  ///< sent with hundredths of a second
@@ -42,10 +43,5 @@ using Satellites = std::vector<SatelliteInView>;
 [[nodiscard]] std::vector<std::uint8_t> encode_zda(const Navigation& navigation);
 /// Satellites in view in the necessary number of sentences, four satellites in each.
 [[nodiscard]] std::vector<std::uint8_t> encode_gsv(const Satellites& satellites);
-
-/// IIXDR with voltage and current of a battery, which the decoder of instruments takes. Both must be finite.
-[[nodiscard]] std::vector<std::uint8_t> encode_battery(double voltage_V, double current_A);
-/// SDDBT with the distance to the floor; nullopt: there was no echo.
-[[nodiscard]] std::vector<std::uint8_t> encode_dbt(std::optional<double> distance_m);
 
 }  // namespace navcal::protocols::nmea

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocols/nmea_encode.h"
+#include "tests/protocols/receiver_sentences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,14 +118,6 @@ std::vector<std::uint8_t> encode_gsv(const Satellites& satellites) {
     sentences.insert(sentences.end(), line.begin(), line.end());
   }
   return sentences;
-}
-
-std::vector<std::uint8_t> encode_battery(double voltage_V, double current_A) {
-  return checked_line(print("IIXDR,U,%.3f,V,BATTERY,I,%.3f,A,BATTERY", voltage_V, current_A));
-}
-
-std::vector<std::uint8_t> encode_dbt(std::optional<double> distance_m) {
-  return checked_line(distance_m ? print("SDDBT,,f,%.2f,M,,F", *distance_m) : std::string("SDDBT,,f,,M,,F"));
 }
 
 }  // namespace navcal::protocols::nmea
