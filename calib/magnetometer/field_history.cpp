@@ -139,15 +139,20 @@ bool FieldHistory::one_field_explains(const SegmentsFit& two, const SegmentNoise
   const auto one = fit_segments(together, noise, belief, &two.shape);
   if (!one) return false;
   const SizeSpread of_one = spread_of(all, one->shape.matrix_per_uT, one->centres_uT.front());
-  const SizeSpread of_before = spread_of(before_.cells(), two.shape.matrix_per_uT, two.centres_uT[0]);
-  const SizeSpread of_now = spread_of(now_.cells(), two.shape.matrix_per_uT, two.centres_uT[1]);
+  const EllipsoidCells before_alone = without_tilt(before_.cells());
+  const std::array apart{&before_alone, &now};
+  const auto each = fit_segments(apart, noise, belief, &two.shape);
+  if (!each) return false;
+  const SizeSpread of_before = spread_of(before_alone, each->shape.matrix_per_uT, each->centres_uT[0]);
+  const SizeSpread of_now = spread_of(now, each->shape.matrix_per_uT, each->centres_uT[1]);
   const auto& last = segments_.back();
   const auto& before = segments_[segments_.size() - 2];
   const double total = static_cast<double>(before.readings + last.readings);
   const double of_two2 = (static_cast<double>(before.readings) * square(of_before) +
                           static_cast<double>(last.readings) * square(of_now)) /
                          total;
-  return square(of_one) <= of_two2;
+  constexpr double kTolerance = 1.1;  // two fields have three unknowns more
+  return square(of_one) <= kTolerance * of_two2;
 }
 
 void FieldHistory::withdraw() {

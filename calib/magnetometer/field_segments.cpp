@@ -187,6 +187,23 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information, double damping) {
   return scale.asDiagonal() * scaled.ldlt().solve(identity) * scale.asDiagonal();
 }
 
+/// Step of a segment from the shift of the first, the shape being held: |v + e|^2 = 1 and down'(v + e) = sine of
+/// dip, v = M m + b, linear in e and its square. A step larger than the field is far from where iterations from
+/// none end.
+Eigen::Vector3d step_of(const EllipsoidCells& cells, const State& state) {
+  constexpr double kRidge = 1e-6;  // in directions that no reading determines there is no step
+  Eigen::Matrix4d normal = kRidge * Eigen::Matrix4d::Identity();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  for (const Cell& cell : cells) {
+    const Eigen::Vector3d v = state.matrix * cell.mean.head<3>() + state.shift, down = cell.mean.tail<3>();
+    const Eigen::Vector4d by_size(2 * v.x(), 2 * v.y(), 2 * v.z(), 1), by_dip(down.x(), down.y(), down.z(), 0);
+    normal += by_size * by_size.transpose() + by_dip * by_dip.transpose();
+    right += by_size * (1 - v.squaredNorm());
+    if (!down.isZero(0)) right += by_dip * (state.sine_of_dip - down.dot(v));
+  }
+  return normal.ldlt().solve(right).head<3>();
+}
+
 /// Minimises the cost from `state` to the nearest local minimum.
 SegmentsFit minimised(const Problem& problem, State& state) {
   SegmentsFit fit;
@@ -308,18 +325,20 @@ std::optional<SegmentsFit> fit_segments(Segments segments, const SegmentNoise& n
   Problem problem{segments, noise, prior, {}};
   std::optional<State> state;
   std::optional<SegmentsFit> fit;
-  const auto try_from = [&](const EllipsoidShape& shape) {
-    State attempt(shape, segments.size());
+  const auto try_from = [&](State attempt) {
     SegmentsFit found = minimised(problem, attempt);
     if (fit && fit->cost <= found.cost) return;
     fit = std::move(found);
     state = std::move(attempt);
   };
   if (begin != nullptr) {
-    try_from(*begin);
+    State held(*begin, segments.size());
+    try_from(held);
+    for (std::size_t k = 1; k < segments.size(); ++k) held.steps[k - 1] = step_of(*segments[k], held);
+    if (segments.size() > 1 && held.sane()) try_from(held);
   } else {
     for (const auto* segment : segments) {
-      if (const auto sphere = starting_sphere(*segment, {})) try_from(*sphere);
+      if (const auto sphere = starting_sphere(*segment, {})) try_from(State(*sphere, segments.size()));
     }
   }
   if (!state) return std::nullopt;

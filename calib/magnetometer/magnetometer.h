@@ -135,7 +135,11 @@ class Magnetometer {
   void leave_out_those_between(const Comparison& found);
   /// Difference of the field between the readings before and after the onset. Its uncertainty includes the
   /// hull's turn meanwhile, as the gyro measured it.
-  [[nodiscard]] std::optional<FieldContrast> contrast(const FieldStep& step) const;
+  /// `onset`: number of the first reading of the new field; `first_waiting`: of those that wait, the first used.
+  [[nodiscard]] std::optional<FieldContrast> contrast(std::uint64_t onset, std::size_t first_waiting) const;
+  /// Tells a step whose size no turn of the hull explains, whatever the shape of the field may be. True: it is
+  /// done.
+  bool tell_at_rest();
   [[nodiscard]] bool is_field_before() const;
 
   Parameters parameters_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "calib/magnetometer/field_cells.h"
 #include "calib/magnetometer/magnetometer.h"
@@ -26,12 +27,20 @@ constexpr std::uint64_t kLeastWaiting = 20;
 constexpr double kMostSquare = 36;
 /// The step must explain this share of what the readings are off.
 constexpr double kLeastShare = 0.5;
+/// Readings of which a mean is taken on each side of a step, for a hull that rests.
+constexpr std::size_t kContrasted = 5;
+/// Standard errors of a difference that no turn of a resting hull explains.
+constexpr double kCertainErrors = 6;
+/// Two steps that leave a smaller share are one there and one back.
+constexpr double kCancelled = 0.15;
+/// Readings of a resting hull while a magnet is put on.
+constexpr std::ptrdiff_t kMostBetween = 10;
 
 double squares_of(const EllipsoidCells& cells, EllipsoidShape shape, const Eigen::Vector3d& centre_uT,
                   const SegmentNoise& noise) {
   shape.centre_uT = centre_uT;
   double sum = 0;
-  for (const Cell& cell : cells) sum += segment_residual(shape, cell, noise).square();
+  for (const Cell& cell : cells) sum += std::min(segment_residual(shape, cell, noise).square(), kMostSquare);
   return sum;
 }
 
@@ -101,6 +110,7 @@ void Magnetometer::decide() {
     next_decision_ = kLeastWaiting;
     return;
   }
+  if (tell_at_rest()) return;
   const Comparison found = compare();
   if (!found.one || !found.two) {
     watch_.reset();
@@ -122,7 +132,7 @@ void Magnetometer::decide() {
     step.size_uT = found.size_uT();
     step.std_uT = found.two->covariance.diagonal().tail<3>().cwiseSqrt();
     leave_out_those_between(found);
-    step.contrast = contrast(step);
+    step.contrast = contrast(step.onset_sample, 0);
     change_field(step);
     return;
   }
@@ -131,10 +141,39 @@ void Magnetometer::decide() {
     next_decision_ = waiting_.size() + std::max<std::size_t>(4, waiting_.size() / 2);
     return;
   }
-  // One field explains all readings, so its fit replaces that of the predictor.
-  now_.predictor.set_fit(*found.one);
+  // Where one field explains all readings, its fit replaces that of the predictor.
+  const double by_one = squares_of(found.waiting, found.one->shape, found.one->shape.centre_uT, noise);
+  if (by_one - unexplained <= kLeastShare * surprising) now_.predictor.set_fit(*found.one);
   watch_.reset();
   release();
+}
+
+bool Magnetometer::tell_at_rest() {
+  const auto found = contrast(waiting_.front().number, waiting_.size() - 2 * kContrasted);
+  if (!found || found->size_uT.norm() < kLeastStep_uT) return false;
+  if ((found->size_uT.array().abs() < kCertainErrors * found->std_uT.array()).all()) return false;
+  const Eigen::Vector3d newest_uT = waiting_.back().predicted.cell.mean.head<3>();
+  const Eigen::Vector3d before_uT = newest_uT - found->size_uT;
+  const auto is_of = [&](const Eigen::Vector3d& field_uT, const Waiting& waiting) {
+    return (waiting.predicted.cell.mean.head<3>() - field_uT).norm() < found->size_uT.norm() / 4;
+  };
+  const auto is_new = [&](const Waiting& waiting) { return is_of(newest_uT, waiting); };
+  const auto is_between = [&](const Waiting& waiting) { return !is_new(waiting) && !is_of(before_uT, waiting); };
+  // Iron that is passed comes slowly.
+  if (std::count_if(waiting_.begin(), waiting_.end(), is_between) > kMostBetween) return false;
+  const auto kept = std::remove_if(waiting_.begin(), waiting_.end(), std::not_fn(is_new));
+  left_out_ += static_cast<std::uint64_t>(waiting_.end() - kept);
+  waiting_.erase(kept, waiting_.end());
+  FieldStep step;
+  step.onset_sample = waiting_.front().number;
+  step.found_sample = readings_;
+  step.time_s = waiting_.front().reading.time_s;
+  step.utc_ns = waiting_.front().reading.utc_ns;
+  step.size_uT = found->size_uT;
+  step.std_uT = found->std_uT;
+  step.contrast = found;
+  change_field(step);
+  return true;
 }
 
 std::size_t Magnetometer::onset_of(const Comparison& found) const {
@@ -172,28 +211,30 @@ void Magnetometer::leave_out_those_between(const Comparison& found) {
   waiting_.erase(kept, waiting_.end());
 }
 
-std::optional<FieldContrast> Magnetometer::contrast(const FieldStep& step) const {
-  constexpr std::size_t kReadings = 5;
+std::optional<FieldContrast> Magnetometer::contrast(std::uint64_t onset, std::size_t first_waiting) const {
   constexpr double kGyroBias_rad_s = 0.1, kTilt_rad = 0.02, kUsualInterval_s = 0.1, kUnknownTurn_rad = 0.5;
-  if (past_.size() < kReadings || waiting_.size() < 2 * kReadings) return std::nullopt;
+  if (past_.size() < kContrasted || waiting_.size() < first_waiting + 2 * kContrasted) return std::nullopt;
   using Mean = FieldCells<3, 6>::Vector;
   // A magnet that is still on its way shows as a difference between the first readings and those that follow.
   Mean before = Mean::Zero(), first = Mean::Zero(), after = Mean::Zero();
   double turned_rad = 0;
   bool turn_known = true;
-  for (std::size_t i = 0; i < 2 * kReadings; ++i) {
+  for (std::size_t i = 0; i < kContrasted; ++i) {
+    before += past_[past_.size() - 1 - i].mean / kContrasted;
+    first += waiting_[first_waiting + i].predicted.cell.mean / kContrasted;
+    after += waiting_[first_waiting + kContrasted + i].predicted.cell.mean / kContrasted;
+  }
+  for (std::size_t i = 0; i < first_waiting + 2 * kContrasted; ++i) {
     const Reading& reading = waiting_[i].reading;
-    (i < kReadings ? first : after) += waiting_[i].predicted.cell.mean / kReadings;
-    if (i < kReadings) before += past_[past_.size() - 1 - i].mean / kReadings;
     turn_known = turn_known && reading.has_turn && !reading.turn.begins_segment;
-    turned_rad += reading.turn.measured_angle_rad;
+    turned_rad += std::abs(reading.turn.measured_angle_rad);
   }
   const Eigen::Vector3d field = before.head<3>(), down = before.tail<3>();
   if (down.isZero(0)) return std::nullopt;
   // The interval lies between the two means. Readings left out in between count by their number.
-  const double between = static_cast<double>(waiting_.front().number - step.onset_sample + 2 * kReadings);
+  const double between = static_cast<double>(waiting_[first_waiting].number - onset + 2 * kContrasted);
   const double turn_std_rad =
-      turn_known ? std::abs(turned_rad) + kGyroBias_rad_s * kUsualInterval_s * between : kUnknownTurn_rad;
+      turn_known ? turned_rad + kGyroBias_rad_s * kUsualInterval_s * between : kUnknownTurn_rad;
   const double tilt_std_rad = (after.tail<3>() - down).norm() + kTilt_rad;
   const double noise_uT = now_.predictor.noise().field_uT;
   const Eigen::Vector3d by_turn = turn_std_rad * down.cross(field), moving = (after - first).head<3>();
@@ -223,7 +264,14 @@ bool Magnetometer::is_field_before() const {
 
 void Magnetometer::change_field(const FieldStep& found) {
   FieldStep step = found;
-  step.returned = is_field_before();
+  const auto last = last_step();
+  // The fit of a field that was seen from one side only does not tell whether a reading is of it.
+  const bool cancels = before_ && last && (last->size_uT + step.size_uT).norm() < kCancelled * step.size_uT.norm();
+  step.returned = cancels || is_field_before();
+  if (step.returned && last && last->std_uT.norm() < step.std_uT.norm()) {
+    step.size_uT = -last->size_uT;
+    step.std_uT = last->std_uT;
+  }
   history_.begin_segment(step, now_.predictor.noise(), now_.predictor.belief());
   Estimators next = step.returned ? *before_ : Estimators(parameters_);
   before_ = now_;

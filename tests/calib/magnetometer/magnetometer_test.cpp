@@ -63,6 +63,71 @@ TEST(Magnetometer, WhenTheOldFieldReturnsItsSummaryGoesOn) {
   EXPECT_LT((magnetometer.ellipse().estimate()->correction.offset_uT - kBefore).head<2>().norm(), 0.2);
 }
 
+/// A hull that tumbles: every attitude within some seconds.
+std::vector<FieldReading> tumbling(int readings, int first, const Eigen::Vector3d& hard_uT, Random& random) {
+  std::vector<Attitude> motion;
+  for (int i = first; i < first + readings; ++i)
+    motion.push_back({0.11 * i + std::sin(0.031 * i), 1.2 * std::sin(0.083 * i), std::sin(0.057 * i)});
+  Iron iron;
+  iron.hard_uT = hard_uT;
+  return field_on(motion, iron, random);
+}
+
+TEST(Magnetometer, AStepLargerThanTheFieldIsFoundWithItsSizeAndItsReturn) {
+  for (const Eigen::Vector3d& size_uT : {Eigen::Vector3d(0, 0, 58), Eigen::Vector3d(35, 29, 36)}) {
+    for (std::uint64_t seed = 30; seed < 34; ++seed) {
+      Random random(seed);
+      Magnetometer magnetometer{Magnetometer::Parameters{}};
+      feed(magnetometer, tumbling(300, 0, kBefore, random));
+      // The magnet is on its way for half a second.
+      for (int i = 0; i < 5; ++i)
+        feed(magnetometer, tumbling(1, 300 + i, kBefore + size_uT * (i + 0.5) / 5, random));
+      feed(magnetometer, tumbling(600, 305, kBefore + size_uT, random));
+      feed(magnetometer, tumbling(600, 905, kBefore, random));
+      magnetometer.settle();
+      const auto& steps = magnetometer.history().steps();
+      ASSERT_EQ(steps.size(), 2U) << size_uT.transpose() << " seed " << seed;
+      EXPECT_NEAR(static_cast<double>(steps[0].onset_sample), 304, 5);
+      EXPECT_LT(steps[0].found_sample, 350U);
+      EXPECT_LT((steps[0].size_uT - size_uT).norm(), 1.5) << steps[0].size_uT.transpose();
+      EXPECT_LT((steps[1].size_uT + size_uT).norm(), 1.5) << steps[1].size_uT.transpose();
+      EXPECT_TRUE(steps[1].returned);
+      EXPECT_LT((magnetometer.estimate()->correction.offset_uT - kBefore).norm(), 1);
+    }
+  }
+}
+
+TEST(Magnetometer, AMagnetThatComesWhileTheHullRestsIsFound) {
+  for (std::uint64_t seed = 40; seed < 44; ++seed) {
+    Random random(seed);
+    Magnetometer magnetometer{Magnetometer::Parameters{}};
+    int count = 0;
+    const Eigen::Vector3d size_uT(8, 7, 9);
+    const auto rest = [&](int readings, const Eigen::Vector3d& hard_uT) {
+      Iron iron;
+      iron.hard_uT = hard_uT;
+      for (const auto& r : field_on(std::vector<Attitude>(static_cast<std::size_t>(readings)), iron, random)) {
+        TurnStep turn;
+        turn.time_s = 0.1 * ++count;
+        turn.begins_segment = count == 1;
+        turn.duration_s = 0.1;
+        turn.measured_angle_rad = 0.001;  // by the gyro's bias
+        magnetometer.update(r.field_body_uT, r.roll_rad, r.pitch_rad, turn);
+      }
+    };
+    rest(300, kBefore);
+    rest(50, kBefore + size_uT);
+    feed(magnetometer, tumbling(600, 0, kBefore + size_uT, random));
+    magnetometer.settle();
+    const auto& steps = magnetometer.history().steps();
+    ASSERT_EQ(steps.size(), 1U) << seed;
+    EXPECT_NEAR(static_cast<double>(steps[0].onset_sample), 301, 2);
+    EXPECT_LT(steps[0].found_sample, 331U);
+    EXPECT_LT((steps[0].size_uT - size_uT).norm(), 1.5) << steps[0].size_uT.transpose();
+    EXPECT_LT((magnetometer.estimate()->correction.offset_uT - kBefore - size_uT).norm(), 1);
+  }
+}
+
 TEST(Magnetometer, OutliersAreLeftOutAndAreNoStep) {
   Random random(3);
   std::uniform_real_distribution<double> anywhere(-60, 60);
