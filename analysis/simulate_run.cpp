@@ -14,7 +14,7 @@
 #include "sim/layout/layout_helm.h"
 #include "sim/recording.h"
 #include "sim/truth.h"
-#include "sim/vehicle/vehicle.h"
+#include "sim/vehicle/body.h"
 
 namespace navcal::analysis {
 namespace {

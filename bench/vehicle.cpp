@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "config/mission_file.h"
+#include "sim/layout/layout_of.h"
 #include "sim/vehicle/mission_helm.h"
 #include "sim/vehicle/simulated_motion.h"
 
@@ -21,11 +22,11 @@ void ten_minutes(benchmark::State& state) {
 BENCHMARK(ten_minutes)->Unit(benchmark::kMillisecond);
 
 void one_step(benchmark::State& state) {
-  const sim::Vehicle vehicle{config::VehicleSettings{}};
+  const sim::LayoutVehicle vehicle(sim::layout_of({}));
   sim::Body body;
   body.velocity[0] = 1;
-  const sim::Controls held{{-0.2, 0.15, 0.05}, 13};
-  for (auto _ : state) body = vehicle.step(body, held, {}, 0.01).body;
+  const sim::ActuatorValues held = sim::Controls{{-0.2, 0.15, 0.05}, 13}.values();
+  for (auto _ : state) body = vehicle.step(body, held, 0.01).body;
   benchmark::DoNotOptimize(body);
 }
 BENCHMARK(one_step);

@@ -24,7 +24,7 @@
 #include "protocols/device_types.h"
 #include "sim/layout/layout_helm.h"
 #include "sim/path.h"
-#include "sim/vehicle/vehicle.h"
+#include "sim/vehicle/body.h"
 
 namespace navcal::cli {
 namespace {

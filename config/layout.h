@@ -15,6 +15,9 @@
 /// Hydrodynamics and Motion Control (2011), chapters 3, 6 and 7.
 namespace navcal::config {
 
+/// Greatest number of actuators of a kind.
+inline constexpr std::size_t kMaxActuators = 32;
+
 using LayoutVector = std::array<double, 3>;
 /// Six rows of six, row by row, in the order surge, sway, heave, roll, pitch, yaw.
 using LayoutMatrix = std::array<double, 36>;

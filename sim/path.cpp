@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "sim/rotation.h"
-#include "sim/vehicle/propeller.h"
+#include "sim/vehicle/motor_current.h"
 
 namespace navcal::sim {
 namespace {

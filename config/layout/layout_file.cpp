@@ -14,8 +14,8 @@ using ReadActuator = void (*)(const Node&, Layout&, std::vector<Problem>&);
 void read_actuators(layout::LayoutTable& table, std::string_view key, ReadActuator read, Layout& layout,
                     std::vector<Problem>& problems) {
   const auto nodes = table.reader().tables(key);
-  if (nodes.size() > layout::kMaxActuators) {
-    table.reader().complain(key, fmt::format("{} of them; {} is the most", nodes.size(), layout::kMaxActuators));
+  if (nodes.size() > kMaxActuators) {
+    table.reader().complain(key, fmt::format("{} of them; {} is the most", nodes.size(), kMaxActuators));
     return;
   }
   for (const Node* node : nodes) read(*node, layout, problems);

@@ -13,8 +13,6 @@ namespace navcal::config::layout {
 
 /// Greatest number of strips, and of points of a table.
 inline constexpr std::size_t kMaxPoints = 200;
-/// Greatest number of actuators of a kind.
-inline constexpr std::size_t kMaxActuators = 32;
 
 struct Bounds {
   double low, high;

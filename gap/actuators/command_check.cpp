@@ -9,7 +9,8 @@
 #include "base/angles.h"
 #include "gap/actuators/commanded_motor.h"
 #include "protocols/motor_card.h"
-#include "sim/vehicle/vehicle.h"
+#include "sim/layout/layout_of.h"
+#include "sim/layout/layout_vehicle.h"
 
 namespace navcal::gap {
 namespace {
@@ -111,13 +112,13 @@ Delay delay_of_reports(const Mission& mission, const config::VehicleSettings& ve
 /// Yaw rate of the nominal vehicle under the commands, from rest.
 Series commanded_yaw_rate(const Mission& mission, const config::VehicleSettings& settings) {
   const auto obeying = commanded_motor(mission.orders, settings, mission.duration_s, kStep_s);
-  const sim::Vehicle vehicle(settings);
+  const sim::LayoutVehicle vehicle(sim::layout_of(settings));
   sim::Body body;
   Series yaw{obeying.front().time_s, {}};
   for (const MotorReading& reading : obeying) {
     const auto& fins = reading.fins_rad;
-    const sim::Controls controls{{fins[0], fins[1], fins[2]}, reading.rpm / 60};
-    body = vehicle.midpoint_step(body, controls, controls, {}, kStep_s);
+    const sim::ActuatorValues held{{reading.rpm}, {fins[0], fins[1], fins[2]}, {}, {}};
+    body = vehicle.midpoint_step(body, held, held, kStep_s);
     // Turns follow from rudder and speed. The depth that nobody holds here is not to matter.
     body.euler_rad.setZero();
     body.position_m.setZero();

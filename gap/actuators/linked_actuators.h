@@ -6,7 +6,7 @@
 
 #include "gap/actuators/actuator_track.h"
 #include "sim/effects/effect_set.h"
-#include "sim/vehicle/vehicle.h"
+#include "sim/layout/layout_of.h"
 
 namespace navcal::gap {
 

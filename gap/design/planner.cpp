@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sim/vehicle/vehicle.h"
+#include "sim/vehicle/body.h"
 
 namespace navcal::gap {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 #include "gap/nulls/null_bank.h"
-#include "sim/vehicle/vehicle.h"
+#include "sim/vehicle/body.h"
 
 namespace navcal::gap {
 

@@ -8,6 +8,8 @@
 
 #include "base/reference_instruments.h"
 #include "gap/replay/replay_run.h"
+#include "sim/layout/layout_of.h"
+#include "sim/vehicle/motor_current.h"
 
 namespace navcal::gap {
 namespace {
@@ -42,7 +44,7 @@ std::vector<double> smoothed_electronics(std::span<const CompassReading> reading
 }  // namespace
 
 Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
-    : mission_(mission), settings_(vehicle), vehicle_(vehicle),
+    : mission_(mission), settings_(vehicle), vehicle_(sim::layout_of(vehicle)),
       track_(mission.motor,
              mission.order_times_s.empty() ? regular_orders(0, mission.duration_s) : mission.order_times_s,
              mission.order_times_s.empty() ? std::span<const Vector3>{} : mission.ordered_fins_rad,

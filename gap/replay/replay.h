@@ -10,7 +10,7 @@
 #include "gap/data/innovations.h"
 #include "gap/data/mission.h"
 #include "sim/effects/effect_set.h"
-#include "sim/vehicle/vehicle.h"
+#include "sim/layout/layout_vehicle.h"
 
 namespace navcal::gap {
 
@@ -51,7 +51,7 @@ class Replay {
 
   const Mission& mission_;
   config::VehicleSettings settings_;
-  sim::Vehicle vehicle_;
+  sim::LayoutVehicle vehicle_;
   ActuatorTrack track_;
   std::vector<double> current_A_;
   std::vector<double> electronics_C_;  ///< at each compass reading, smoothed

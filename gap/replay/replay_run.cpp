@@ -80,7 +80,7 @@ ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
 void ReplayRun::complete(sim::State& state, double time_s) {
   const std::size_t row = actuators_.row_at(time_s);
   const sim::Controls now = actuators_.of_row(row);
-  const auto acceleration = in_.vehicle.acceleration(body_, now, influences_);
+  const auto acceleration = in_.vehicle.acceleration(body_, in_.vehicle.hold(now.values(), influences_));
   state.position_m = array_of(body_.position_m);
   state.euler_rad = array_of(body_.euler_rad);
   state.velocity_body_m_s = array_of(body_.velocity.head<3>());
@@ -160,8 +160,8 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
   const double part_s = step_s / parts;
   for (int i = 0; i < parts; ++i) {
     const double at_s = from_s + i * part_s;
-    body_ = in_.vehicle.midpoint_step(body_, actuators_.mean(at_s, at_s + part_s / 2),
-                                      actuators_.mean(at_s, at_s + part_s), influences_, part_s);
+    body_ = in_.vehicle.midpoint_step(body_, actuators_.mean(at_s, at_s + part_s / 2).values(),
+                                      actuators_.mean(at_s, at_s + part_s).values(), part_s, influences_);
   }
   const Eigen::Vector3d middle = euler + step_s / 2 * euler_rates(euler, rate);
   body_.euler_rad = euler + step_s * euler_rates(middle, rate);

@@ -16,7 +16,7 @@ namespace navcal::gap {
 struct ReplayInput {
   const Mission& mission;
   const config::VehicleSettings& settings;
-  const sim::Vehicle& vehicle;
+  const sim::LayoutVehicle& vehicle;
   std::span<const ActuatorTrack::Row> actuators;
   std::span<const double> current_A;      ///< at the times of `actuators`
   std::span<const double> electronics_C;  ///< at each compass reading

@@ -223,8 +223,8 @@ ActuatorTrajectory ActuatorInputs::trajectory(const config::Layout& layout) cons
   sim::ActuatorValues commands = sim::ActuatorValues::neutral(layout), positions = commands;
   const auto read = [&](double time_s, bool positions_only) {
     std::size_t n = 0;
-    const auto take = [&](const std::vector<Input>& inputs, std::vector<double>& command,
-                          std::vector<double>& position) {
+    const auto take = [&](const std::vector<Input>& inputs, sim::ActuatorNumbers& command,
+                          sim::ActuatorNumbers& position) {
       for (std::size_t i = 0; i < inputs.size(); ++i, ++n) {
         if (inputs[i].signal == nullptr) continue;
         if (inputs[i].is_position) {

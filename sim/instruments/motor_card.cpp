@@ -6,7 +6,7 @@
 
 #include "base/angles.h"
 #include "base/rounding.h"
-#include "sim/vehicle/propeller.h"
+#include "sim/vehicle/motor_current.h"
 
 namespace navcal::sim {
 namespace {

@@ -17,8 +17,8 @@ double at_rate(double position, double command, double low, double high, double 
   return position + std::clamp(std::clamp(command, low, high) - position, -step, step);
 }
 
-std::vector<double> means(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> mean(a.size());
+ActuatorNumbers means(const ActuatorNumbers& a, const ActuatorNumbers& b) {
+  ActuatorNumbers mean = a;
   for (std::size_t i = 0; i < a.size(); ++i) mean[i] = (a[i] + b[i]) / 2;
   return mean;
 }
@@ -29,7 +29,7 @@ ActuatorValues ActuatorValues::neutral(const config::Layout& layout) {
   ActuatorValues values;
   for (const auto& thruster : layout.thrusters)
     values.thrusters.push_back(std::clamp(thruster.neutral(), thruster.low, thruster.high));
-  values.surfaces_rad.assign(layout.surfaces.size(), 0);
+  for (std::size_t i = 0; i < layout.surfaces.size(); ++i) values.surfaces_rad.push_back(0);
   for (const auto& ballast : layout.ballasts)
     values.ballasts_N.push_back(std::clamp(0.0, ballast.low_N, ballast.high_N));
   for (const auto& mass : layout.moving_masses)

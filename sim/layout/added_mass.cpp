@@ -3,8 +3,8 @@
 
 #include <numbers>
 
+#include "sim/layout/lamb_factors.h"
 #include "sim/layout/vector_of.h"
-#include "sim/vehicle/mass.h"
 
 namespace navcal::sim {
 namespace {

@@ -9,16 +9,23 @@
 namespace navcal::sim {
 namespace {
 
-std::optional<Matrix6> unless_zero(const config::LayoutMatrix& rows) {
-  const Matrix6 matrix = matrix_of(rows);
+std::optional<Matrix6> unless_zero(const Matrix6& matrix) {
   return matrix.isZero(0) ? std::nullopt : std::optional(matrix);
+}
+
+std::optional<Matrix6> beside_diagonal(Matrix6 matrix) {
+  matrix.diagonal().setZero();
+  return unless_zero(matrix);
 }
 
 }  // namespace
 
 HullDamping::HullDamping(const config::Layout& layout)
-    : linear_(unless_zero(layout.damping.linear)), quadratic_(unless_zero(layout.damping.quadratic)),
-      lift_(unless_zero(layout.damping.lift)),
+    : linear_diagonal_(matrix_of(layout.damping.linear).diagonal()),
+      quadratic_diagonal_(matrix_of(layout.damping.quadratic).diagonal()),
+      linear_(beside_diagonal(matrix_of(layout.damping.linear))),
+      quadratic_(beside_diagonal(matrix_of(layout.damping.quadratic))),
+      lift_(unless_zero(matrix_of(layout.damping.lift))),
       axial_kg_m_(0.5 * layout.water_density_kg_m3 * layout.damping.axial_coefficient *
                   layout.damping.axial_area_m2),
       body_lift_kg_m_(0.5 * layout.water_density_kg_m3 * layout.damping.body_lift_area_m2 *
@@ -36,6 +43,7 @@ Vector6 HullDamping::operator()(const Vector6& velocity) const {
   const double Z = -body_lift_kg_m_ * surge * velocity[2];
   Vector6 force;
   force << -axial_kg_m_ * surge * velocity[0], Y, Z, 0, -body_lift_at_m_ * Z, body_lift_at_m_ * Y;
+  force -= (linear_diagonal_ + quadratic_diagonal_.cwiseProduct(velocity.cwiseAbs())).cwiseProduct(velocity);
   if (linear_) force -= *linear_ * velocity;
   if (quadratic_) force -= *quadratic_ * velocity.cwiseAbs().cwiseProduct(velocity);
   if (lift_) force -= surge * (*lift_ * velocity);

@@ -25,7 +25,8 @@ class HullDamping {
   [[nodiscard]] Vector6 operator()(const Vector6& velocity) const;
 
  private:
-  /// nullopt where all is zero: most layouts have two of three.
+  Vector6 linear_diagonal_, quadratic_diagonal_;
+  /// Beside the diagonals; nullopt where all is zero: most layouts have one of three.
   std::optional<Matrix6> linear_, quadratic_, lift_;
   double axial_kg_m_, body_lift_kg_m_, body_lift_at_m_;
   CrossFlowStrips strips_;

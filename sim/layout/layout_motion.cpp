@@ -79,16 +79,15 @@ void LayoutMotion::take_step() const {
     while (1e-9 * static_cast<double>(time_ns - outputs_.front().time_ns) > options_.history_s)
       outputs_.pop_front();
   }
-  ActuatorValues next = follow(vehicle_.layout(), positions_, commands_of(nominal_, pulses_us), kMotionStep_s);
-  LayoutVehicle::Held held = vehicle_.hold(mean_of(positions_, next));
+  const ActuatorValues next =
+      follow(vehicle_.layout(), positions_, commands_of(nominal_, pulses_us), kMotionStep_s);
+  LayoutVehicle::Held held = vehicle_.hold(mean_of(positions_, next), influences);
   const double emerged = std::clamp(0.5 - body_.position_m.z() / height_m_, 0.0, 1.0);
   held.restoring.net_weight_N += emerged * vehicle_.layout().body.buoyancy_N;
   const LayoutVehicle::Step step = vehicle_.held_step(body_, held, kMotionStep_s);
   states_.push(layout_state(body_, step.acceleration, influences));
   body_ = step.body;
-  body_.position_m.x() += kMotionStep_s * influences.current_m_s[0];
-  body_.position_m.y() += kMotionStep_s * influences.current_m_s[1];
-  positions_ = std::move(next);
+  positions_ = next;
   check_stable(body_, time_s + kMotionStep_s);
   if (!ended_s_ && helm_->finished()) ended_s_ = static_cast<double>(states_.steps()) * kMotionStep_s;
 }

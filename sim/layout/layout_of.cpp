@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "base/gravity.h"
-#include "sim/vehicle/mass.h"
+#include "sim/layout/added_mass.h"
+#include "sim/layout/lamb_factors.h"
+#include "sim/layout/rigid_body.h"
 
 namespace navcal::sim {
 namespace {
@@ -36,8 +38,7 @@ config::LayoutMatrix added_mass_of(const config::HullSettings& hull, const confi
   return matrix;
 }
 
-config::LayoutMatrix linear_damping_of(const config::VehicleSettings& vehicle) {
-  const Matrix6 mass = mass_matrix(vehicle.hull);
+config::LayoutMatrix linear_damping_of(const config::VehicleSettings& vehicle, const Matrix6& mass) {
   const double restoring_Nm = vehicle.hull.mass_kg * base::kGravity_m_s2 * vehicle.hull.gravity_below_m;
   const auto oscillation = [&](double ratio, double inertia) {
     return 2 * ratio * std::sqrt(restoring_Nm / inertia) * inertia;
@@ -49,7 +50,7 @@ config::LayoutMatrix linear_damping_of(const config::VehicleSettings& vehicle) {
   return linear;
 }
 
-/// The 20 stations of sim/vehicle/hull_forces.h that have a width.
+/// 21 stations, evenly from stern to bow, without the first: both ends have no width.
 config::LayoutStrips strips_of(const config::HullSettings& hull) {
   constexpr int kStrips = 20;
   const double half_m = hull.length_m / 2, dx_m = hull.length_m / kStrips;
@@ -108,7 +109,7 @@ config::Layout layout_of(const config::VehicleSettings& vehicle) {
   layout.water_density_kg_m3 = vehicle.water.density_kg_m3;
   layout.body = body_of(hull);
   layout.added_mass.matrix_kg = added_mass_of(hull, layout.body);
-  layout.damping.linear = linear_damping_of(vehicle);
+  layout.damping.linear = linear_damping_of(vehicle, rigid_body_mass(layout, {}) + added_mass(layout));
   layout.damping.axial_coefficient = hull.axial_drag;
   layout.damping.axial_area_m2 = std::numbers::pi * hull.diameter_m * hull.diameter_m / 4;
   layout.damping.body_lift_slope_per_rad = hull.lift_slope_per_rad;

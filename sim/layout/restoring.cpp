@@ -9,8 +9,8 @@
 
 namespace navcal::sim {
 
-Restoring restoring_of(const config::Layout& layout, const std::vector<double>& ballasts_N,
-                       const std::vector<double>& masses_m) {
+Restoring restoring_of(const config::Layout& layout, const ActuatorNumbers& ballasts_N,
+                       const ActuatorNumbers& masses_m) {
   const double weight = layout.weight_N();
   Restoring restoring;
   restoring.net_weight_N = weight - layout.body.buoyancy_N;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <vector>
 
 #include "config/layout.h"
+#include "sim/layout/actuators.h"
 #include "sim/vehicle/body.h"
 
 namespace navcal::sim {
@@ -16,16 +16,15 @@ struct Restoring {
   double net_weight_N = 0;   ///< W - B - sum b_i
   Eigen::Vector3d arm_Nm{};  ///< W r_g - B r_b - sum b_i r_i
 
-  [[nodiscard]] Vector6 operator()(const Eigen::Vector3d& down) const {
-    Vector6 force;
-    force << net_weight_N * down, arm_Nm.cross(down);
-    return force;
+  void add(const Eigen::Vector3d& down, Vector6& force) const {
+    force.head<3>() += net_weight_N * down;
+    force.tail<3>() += arm_Nm.cross(down);
   }
 };
 
 /// Ballasts at these added buoyancies (N), moving masses at these places along their axes (m).
-[[nodiscard]] Restoring restoring_of(const config::Layout& layout, const std::vector<double>& ballasts_N,
-                                     const std::vector<double>& masses_m);
+[[nodiscard]] Restoring restoring_of(const config::Layout& layout, const ActuatorNumbers& ballasts_N,
+                                     const ActuatorNumbers& masses_m);
 
 /// Downwards in body axes at these Euler angles.
 [[nodiscard]] Eigen::Vector3d down_of(const Eigen::Vector3d& euler_rad);

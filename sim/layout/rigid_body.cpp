@@ -18,7 +18,7 @@ Eigen::Matrix3d inertia_matrix(const config::LayoutBody& body) {
   return inertia;
 }
 
-Eigen::Vector3d gravity_centre_m(const config::Layout& layout, const std::vector<double>& masses_m) {
+Eigen::Vector3d gravity_centre_m(const config::Layout& layout, const ActuatorNumbers& masses_m) {
   Eigen::Vector3d centre = vector_of(layout.body.gravity_centre_m);
   for (std::size_t i = 0; i < layout.moving_masses.size(); ++i) {
     const config::LayoutMovingMass& mass = layout.moving_masses[i];
@@ -27,7 +27,7 @@ Eigen::Vector3d gravity_centre_m(const config::Layout& layout, const std::vector
   return centre;
 }
 
-Matrix6 rigid_body_mass(const config::Layout& layout, const std::vector<double>& masses_m) {
+Matrix6 rigid_body_mass(const config::Layout& layout, const ActuatorNumbers& masses_m) {
   const double m = layout.body.mass_kg;
   const Eigen::Matrix3d S = skew(vector_of(layout.body.gravity_centre_m));
   Eigen::Matrix3d about_origin = inertia_matrix(layout.body) - m * S * S;

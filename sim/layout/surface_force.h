@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "config/layout.h"
 #include "sim/vehicle/body.h"
 
@@ -13,7 +16,16 @@ class SurfaceForce {
  public:
   SurfaceForce(const config::LayoutSurface& surface, double density_kg_m3);
 
-  void add(const Vector6& velocity, double angle_rad, Vector6& force) const;
+  void add(const Vector6& velocity, double angle_rad, Vector6& force) const {
+    constexpr double kLeast_m_s = 0.001;
+    const double along = of_chord_.dot(velocity);
+    const double across = of_normal_.dot(velocity);
+    const double inflow_rad = std::atan(across / std::max(std::abs(along), kLeast_m_s));
+    const double alpha = std::clamp(angle_rad - inflow_rad, -stall_rad_, stall_rad_);
+    const double pressure_N = pressure_kg_m_ * (along * along + across * across);
+    force += pressure_N * slope_ * alpha * of_normal_;
+    force -= pressure_N * (induced_ * alpha * alpha + std::copysign(drag_, along)) * of_chord_;
+  }
 
  private:
   double pressure_kg_m_;  ///< 1/2 rho A

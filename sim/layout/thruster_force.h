@@ -13,11 +13,12 @@ class ThrusterForce {
  public:
   ThrusterForce(const config::LayoutThruster& thruster, double density_kg_m3);
 
-  /// `position`: the command after lag and dead band, in the command's unit.
-  void add(const Vector6& velocity, double position, Vector6& force) const {
+  /// `position`: the command after lag and dead band, in the command's unit; `factor`: of the thrust, not the
+  /// reaction.
+  void add(const Vector6& velocity, double position, double factor, Vector6& force) const {
     const autopilot::Thrust thrust =
         autopilot::thrust_at(thruster_, density_kg_m3_, position, of_thrust_.dot(velocity));
-    force += thrust.force_N * of_thrust_;
+    force += factor * thrust.force_N * of_thrust_;
     force.tail<3>() += thrust.torque_Nm * of_thrust_.head<3>();
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stdexcept>
 
 namespace navcal::sim {
 
@@ -23,5 +24,15 @@ inline Vector6 force_at(const Eigen::Vector3d& point_m, const Eigen::Vector3d& f
       point_m.z() * force_N.x() - point_m.x() * force_N.z(), point_m.x() * force_N.y() - point_m.y() * force_N.x();
   return all;
 }
+
+/// The motion left what the model can describe; what() says when and in which state.
+class UnstableVehicle : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws UnstableVehicle when the state is not finite, faster than anything of this size moves, or stands on its
+/// nose, where Euler angles end.
+void check_stable(const Body& body, double time_s);
 
 }  // namespace navcal::sim

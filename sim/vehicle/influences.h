@@ -11,15 +11,14 @@ namespace navcal::sim {
 
 /// Changes of the vehicle itself by effects; all neutral by default.
 struct Influences {
-  double thrust_factor = 1;             ///< of the propeller's force
+  double thrust_factor = 1;             ///< of the thrusters' force
   double yaw_damping_per_s = 0;         ///< N = -k M66 r more
   double buoyancy_N = 0;                ///< net upward force at the origin
   std::array<double, 2> current_m_s{};  ///< north, east: moves the position only
 };
 
 /// Interface of effects that change the vehicle: one propeller and three fins by influence() and link_fins(), a
-/// layout by influence(), of which only the current counts, and change_layout(). Called once a step, in order of
-/// time.
+/// layout by influence() and change_layout(). Called once a step, in order of time.
 class VehicleInfluencer {
  public:
   virtual ~VehicleInfluencer() = default;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "sim/layout/layout_of.h"
 #include "sim/rotation.h"
+#include "sim/vehicle/motor_current.h"
 
 namespace navcal::sim {
 namespace {
@@ -16,7 +18,7 @@ Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 SimulatedMotion::SimulatedMotion(const config::VehicleSettings& vehicle, std::unique_ptr<Helm> helm,
                                  const MotionOptions& options)
-    : vehicle_(vehicle), propeller_(vehicle.propeller), options_(options), helm_(std::move(helm)),
+    : vehicle_(layout_of(vehicle)), propeller_(vehicle.propeller), options_(options), helm_(std::move(helm)),
       body_(helm_->start()), actuators_(helm_->actuators_at_start()), states_(options.history_s) {
   check_stable(body_, 0);
 }
@@ -63,7 +65,7 @@ void SimulatedMotion::take_step() const {
     held.shaft_rps = (actuators_.shaft_rps + next.shaft_rps) / 2;
   }
   linked_rad_ = linked_rad;
-  const Vehicle::Step step = vehicle_.step(body_, held, influences, kStep_s);
+  const LayoutVehicle::Step step = vehicle_.step(body_, held.values(), kStep_s, influences);
   states_.push(state_of(step.acceleration, influences));
   body_ = step.body;
   actuators_ = next;

@@ -7,10 +7,11 @@
 #include <memory>
 #include <optional>
 
+#include "config/vehicle.h"
+#include "sim/layout/layout_vehicle.h"
 #include "sim/state.h"
 #include "sim/vehicle/helm.h"
 #include "sim/vehicle/step_history.h"
-#include "sim/vehicle/vehicle.h"
 
 namespace navcal::sim {
 
@@ -44,7 +45,7 @@ class SimulatedMotion final : public Motion {
   void take_step() const;
   [[nodiscard]] State state_of(const Vector6& acceleration, const Influences& influences) const;
 
-  Vehicle vehicle_;
+  LayoutVehicle vehicle_;
   config::PropellerSettings propeller_;
   MotionOptions options_;
   // The motion is what it is from the beginning on; only as much of it as was asked for has been worked out.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// navcal identify on a capture of navcal simulate, which is a simulator of its own (sim::Vehicle and the emulated
+// navcal identify on a capture of navcal simulate, which is a simulator of its own (its vehicle and the emulated
 // instruments).
 #include <gtest/gtest.h>
 

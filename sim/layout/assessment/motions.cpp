@@ -6,7 +6,6 @@
 
 #include "autopilot/allocation.h"
 #include "sim/layout/assessment/parts.h"
-#include "sim/vehicle/vehicle.h"
 
 namespace navcal::sim::assessment {
 namespace {

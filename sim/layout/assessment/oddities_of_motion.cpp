@@ -28,7 +28,6 @@ void check_stability(const Statics& statics, std::vector<Oddity>& odd) {
 /// Power that hull and surfaces take at a small motion along each degree of freedom.
 void check_damping(const LayoutVehicle& vehicle, std::vector<Oddity>& odd) {
   LayoutVehicle::Held held = vehicle.hold(ActuatorValues::neutral(vehicle.layout()));
-  held.mass.setZero();
   held.restoring = {0, Eigen::Vector3d::Zero()};
   for (Eigen::Index i = 0; i < 6; ++i) {
     Vector6 velocity = Vector6::Zero();

@@ -13,7 +13,6 @@
 #include "sim/layout/added_mass.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
-#include "sim/vehicle/vehicle.h"
 
 namespace navcal::sim::testing {
 namespace {
@@ -90,21 +89,17 @@ TEST(LayoutEffects, ScaleTheThrustAtEverySpeed) {
   }
 }
 
-TEST(LayoutEffects, ActOnTheReferenceLayoutAsTheSameEffectsOnTheReferenceVehicle) {
-  const config::VehicleSettings settings;
-  const config::Layout nominal = layout_of(settings);
-  const Vehicle vehicle(settings);
+TEST(LayoutEffects, ActAsTheInputsOfTheSameNames) {
+  const config::Layout nominal = layout_of({});
+  const LayoutVehicle vehicle(nominal);
   Body body;
   body.position_m.z() = 2;
   body.velocity << 1.1, 0.1, -0.05, 0.02, 0.1, 0.3;
-  const Controls controls{{0.1, -0.05, 0.2}, 13};
-  ActuatorValues actuators = ActuatorValues::neutral(nominal);
-  actuators.thrusters = {780};
-  actuators.surfaces_rad = {0.1, -0.05, 0.2};
+  const ActuatorValues actuators = Controls{{0.1, -0.05, 0.2}, 13}.values();
   const auto expect_same = [&](const LayoutEffect& effect, const Influences& influences) {
     const LayoutVehicle changed(changed_layout(nominal, effect));
     const Vector6 a = changed.step(body, actuators, 0.01).acceleration;
-    const Vector6 b = vehicle.step(body, controls, influences, 0.01).acceleration;
+    const Vector6 b = vehicle.step(body, actuators, 0.01, influences).acceleration;
     EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-10) << effect.about->name;
   };
   expect_same(effect_of("thrust_scale", "", {0.08}), {.thrust_factor = 1.08});

@@ -10,6 +10,7 @@
 #include "sim/layout/assessment/assessment.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
+#include "sim/layout/rigid_body.h"
 
 namespace navcal::sim::testing {
 namespace {
@@ -90,7 +91,7 @@ TEST(ShippedLayouts, RemusHasThePublishedCoefficients) {
   const config::Layout layout = shipped("remus-100");
   const LayoutVehicle vehicle(layout);
   LayoutVehicle::Held held = vehicle.hold(ActuatorValues::neutral(layout));
-  held.mass = added_mass(layout);
+  const Matrix6 rigid = rigid_body_mass(layout, {});
   held.restoring = {0, Eigen::Vector3d::Zero()};
   const double u = 1.5, step = 1e-7;
   const auto coefficient = [&](Eigen::Index force, Eigen::Index by) {
@@ -98,8 +99,15 @@ TEST(ShippedLayouts, RemusHasThePublishedCoefficients) {
     plus[0] = minus[0] = u;
     plus[by] = step;
     minus[by] = -step;
-    const Eigen::Vector3d down = Eigen::Vector3d::UnitZ();
-    return (vehicle.force(plus, down, held) - vehicle.force(minus, down, held))[force] / (2 * step * u);
+    const auto without_rigid_body = [&](const Vector6& velocity) {
+      const Vector6 momentum = rigid * velocity;
+      const Eigen::Vector3d v = velocity.head<3>(), omega = velocity.tail<3>();
+      Vector6 all = vehicle.force(velocity, Eigen::Vector3d::UnitZ(), held);
+      all.head<3>() += omega.cross(momentum.head<3>());
+      all.tail<3>() += omega.cross(momentum.tail<3>()) + v.cross(momentum.head<3>());
+      return all;
+    };
+    return (without_rigid_body(plus) - without_rigid_body(minus))[force] / (2 * step * u);
   };
   const std::vector<std::tuple<Eigen::Index, Eigen::Index, double>> published{
       {2, 2, -28.6}, {4, 2, 24.0},  {2, 4, -5.22}, {4, 4, -2.0},

@@ -6,19 +6,20 @@
 #include <string_view>
 
 #include "config/mission_file.h"
+#include "sim/layout/layout_of.h"
+#include "sim/layout/layout_vehicle.h"
 #include "sim/vehicle/mission_helm.h"
 #include "sim/vehicle/simulated_motion.h"
-#include "sim/vehicle/vehicle.h"
 
 namespace navcal::sim::testing {
 
 inline constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// The same controls all the time.
-inline Body held(const Vehicle& vehicle, Body body, const Controls& controls, double seconds, double step_s = 0.01,
-                 const Influences& influences = {}) {
+inline Body held(const LayoutVehicle& vehicle, Body body, const Controls& controls, double seconds,
+                 double step_s = 0.01, const Influences& influences = {}) {
   const long steps = std::lround(seconds / step_s);
-  for (long i = 0; i < steps; ++i) body = vehicle.step(body, controls, influences, step_s).body;
+  for (long i = 0; i < steps; ++i) body = vehicle.step(body, controls.values(), step_s, influences).body;
   return body;
 }
 

@@ -92,11 +92,12 @@ struct RampHelm final : Helm {
 
 TEST(SimulatedMotion, FinsThatMoveAreFeltWhenTheyMoveAndNotHalfAStepEarlier) {
   const SimulatedMotion motion({}, std::make_unique<RampHelm>(), {});
-  const Vehicle vehicle{config::VehicleSettings{}};
+  const LayoutVehicle vehicle(layout_of({}));
   constexpr double kFine_s = 1e-4, kUntil_s = 1;
   Body body = under_way(1.1);
   for (int i = 0; i < std::lround(kUntil_s / kFine_s); ++i) {
-    body = vehicle.step(body, {RampHelm::fins_rad((i + 0.5) * kFine_s), 13}, {}, kFine_s).body;
+    const Controls held{RampHelm::fins_rad((i + 0.5) * kFine_s), 13};
+    body = vehicle.step(body, held.values(), kFine_s).body;
   }
   const double rate_rad_s = motion.at(at_s(kUntil_s)).rate_rad_s[2];
   const double rising_rad_s2 = (rate_rad_s - motion.at(at_s(kUntil_s - 0.1)).rate_rad_s[2]) / 0.1;

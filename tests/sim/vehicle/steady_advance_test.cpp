@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/reference_instruments.h"
-#include "sim/vehicle/vehicle.h"
+#include "sim/layout/layout_of.h"
+#include "sim/layout/layout_vehicle.h"
 
 namespace navcal::sim {
 namespace {
@@ -17,13 +18,12 @@ TEST(SteadyAdvance, AVehicleSettlesAtIt) {
   config::VehicleSettings draggy;
   draggy.hull.axial_drag *= 1.5;
   for (const auto& settings : {config::VehicleSettings{}, draggy}) {
-    const Vehicle vehicle(settings);
+    const LayoutVehicle vehicle(layout_of(settings));
     constexpr double kShaft_rps = 13;
-    Controls controls;
-    controls.shaft_rps = kShaft_rps;
+    const ActuatorValues held = Controls{{0, 0, 0}, kShaft_rps}.values();
     Body body;
     body.velocity[0] = 1;
-    for (int i = 0; i < 6000; ++i) body = vehicle.midpoint_step(body, controls, controls, {}, 0.02);
+    for (int i = 0; i < 6000; ++i) body = vehicle.midpoint_step(body, held, held, 0.02);
     EXPECT_NEAR(body.velocity[0] / kShaft_rps, steady_advance_m(settings), 2e-4);
   }
 }

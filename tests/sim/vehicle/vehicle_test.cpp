@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/vehicle/vehicle.h"
-
+// The reference vehicle as its layout.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <string>
 
 #include "autopilot/autopilot.h"
@@ -11,7 +11,16 @@
 namespace navcal::sim::testing {
 namespace {
 
-const Vehicle kVehicle{config::VehicleSettings{}};
+const LayoutVehicle kVehicle{layout_of({})};
+
+TEST(Vehicle, ItsMassMatrixIsThatOfABody) {
+  const Matrix6& mass = kVehicle.mass();
+  EXPECT_EQ(mass, mass.transpose());
+  EXPECT_EQ(Eigen::LLT<Matrix6>(mass).info(), Eigen::Success) << "positive definite";
+  EXPECT_GT(mass(1, 1), mass(0, 0)) << "the Munk moment needs more added mass across than along";
+  EXPECT_NEAR(mass(0, 4), 0.053, 1e-12) << "m zg couples surge and pitch";
+  EXPECT_NEAR(mass(1, 3), -0.053, 1e-12);
+}
 
 TEST(Vehicle, AtRestItStaysAtRest) {
   const Body after = held(kVehicle, {}, {}, 10);
@@ -40,7 +49,7 @@ TEST(Vehicle, TheWorldHasNoPreferredHeading) {
 TEST(Vehicle, PortAndStarboardAreMirrorImagesButForThePropellersTorque) {
   config::VehicleSettings settings;
   settings.propeller.torque_felt = 0;
-  const Vehicle vehicle(settings);
+  const LayoutVehicle vehicle(layout_of(settings));
   // A mirror exchanges the second and third fin and turns every angle about.
   const Body starboard = held(vehicle, under_way(0.5), {{-0.3, 0.2, 0.05}, 13}, 20);
   const Body port = held(vehicle, under_way(0.5), {{0.3, -0.05, -0.2}, 13}, 20);
@@ -93,7 +102,7 @@ config::VehicleSettings lossless() {
   return settings;
 }
 
-double energy_J(const Vehicle& vehicle, const Body& body) {
+double energy_J(const LayoutVehicle& vehicle, const Body& body) {
   const config::HullSettings hull;
   return 0.5 * body.velocity.dot(vehicle.mass() * body.velocity) -
          hull.mass_kg * kGravity_m_s2 * hull.gravity_below_m * std::cos(body.euler_rad.x()) *
@@ -109,7 +118,7 @@ Body drifting() {
 }
 
 double energy_drift(double step_s, double seconds) {
-  const Vehicle vehicle(lossless());
+  const LayoutVehicle vehicle(layout_of(lossless()));
   const double first_J = energy_J(vehicle, drifting());
   double worst = 0;
   Body body = drifting();

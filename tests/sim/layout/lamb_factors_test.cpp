@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/vehicle/mass.h"
+#include "sim/layout/lamb_factors.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace navcal::sim {
@@ -22,7 +21,7 @@ double lamb_integral(double a, double b, double m, double n) {
   return a * b * b * sum / kParts;
 }
 
-TEST(Mass, LambsFactorsAreThoseOfHisIntegrals) {
+TEST(LambFactors, AreThoseOfHisIntegrals) {
   for (const double a : {1.5, 2.0, 10.2}) {
     const double alpha = lamb_integral(a, 1, 1.5, 1), beta = lamb_integral(a, 1, 0.5, 2);
     const double less = a * a - 1, more = a * a + 1;
@@ -35,7 +34,7 @@ TEST(Mass, LambsFactorsAreThoseOfHisIntegrals) {
   }
 }
 
-TEST(Mass, ASphereCarriesHalfItsWaterAndANeedleAllOfItAcross) {
+TEST(LambFactors, ASphereCarriesHalfItsWaterAndANeedleAllOfItAcross) {
   const LambFactors sphere = lamb_factors(1.01, 1);
   EXPECT_NEAR(sphere.axial, 0.5, 1e-2);
   EXPECT_NEAR(sphere.transverse, 0.5, 1e-2);
@@ -43,16 +42,6 @@ TEST(Mass, ASphereCarriesHalfItsWaterAndANeedleAllOfItAcross) {
   const LambFactors needle = lamb_factors(1000, 1);
   EXPECT_NEAR(needle.axial, 0, 1e-4);
   EXPECT_NEAR(needle.transverse, 1, 1e-4);
-}
-
-TEST(Mass, TheMatrixIsThatOfABody) {
-  const config::HullSettings hull;
-  const Matrix6 mass = mass_matrix(hull);
-  EXPECT_EQ(mass, mass.transpose());
-  EXPECT_EQ(Eigen::LLT<Matrix6>(mass).info(), Eigen::Success) << "positive definite";
-  EXPECT_GT(mass(1, 1), mass(0, 0)) << "the Munk moment needs more added mass across than along";
-  EXPECT_NEAR(mass(0, 4), 0.053, 1e-12) << "m zg couples surge and pitch";
-  EXPECT_NEAR(mass(1, 3), -0.053, 1e-12);
 }
 
 }  // namespace
