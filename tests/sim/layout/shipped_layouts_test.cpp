@@ -2,6 +2,7 @@
 // The shipped layouts are read, can be simulated, and have the published check values of docs/vehicles.md.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -44,6 +45,10 @@ TEST(ShippedLayouts, TheReferenceVehicleIsTheBuiltInOne) {
   config::Layout file = shipped("reference"), built_in = layout_of({});
   file.sources.clear();
   built_in.name = file.name;
+  // Sums of floating-point numbers in another order than when the file was written.
+  for (std::size_t i = 0; i < file.damping.linear.size(); ++i)
+    EXPECT_NEAR(file.damping.linear[i], built_in.damping.linear[i], 1e-12 * std::abs(file.damping.linear[i])) << i;
+  built_in.damping.linear = file.damping.linear;
   EXPECT_EQ(file, built_in);
 }
 
