@@ -84,7 +84,7 @@ void Daemon::stop(std::string_view reason, std::function<void()> stopped) {
   const std::int64_t now_ns = ports::monotonic_ns();
   if (stop_at_ns_ > 0) {
     stop_at_ns_ = now_ns;
-    return stop_timer_.arm(now_ns);
+    return stop_timer_.arm(now_ns + kStopLook_ns);
   }
   stopped_ = std::move(stopped);
   notifier_.stopping();
@@ -94,7 +94,7 @@ void Daemon::stop(std::string_view reason, std::function<void()> stopped) {
   if (motor_ && !motor_->is_safe())
     event(now_ns, "info", "daemon.stop", "",
           "waits until the motor card shows the safe state; a second signal ends it");
-  stop_timer_.arm(now_ns);
+  stop_timer_.arm(now_ns + kStopLook_ns);
 }
 
 void Daemon::stop_when_safe() {
