@@ -64,9 +64,10 @@ Finding fix_log_folder(const config::LogSettings& settings, const Account& accou
   std::replace(name.begin(), name.end(), '/', '-');
   const auto file = etc / "systemd/system/navcald.service.d" / ("log" + name + ".conf");
   constexpr std::string_view kMeantBySystemd = " \t\n\"'\\%$";
-  if (std::filesystem::exists(file) || folder.find_first_of(kMeantBySystemd) != std::string::npos)
-    return fault("fix", file.string() + " is there and stays as it is, or the folder's name needs an escape",
-                 "`sudo systemctl edit navcald`");
+  const std::string by_hand = "`sudo systemctl edit navcald`";
+  if (std::filesystem::exists(file)) return fault("fix", file.string() + " is there and stays as it is", by_hand);
+  if (folder.find_first_of(kMeantBySystemd) != std::string::npos)
+    return fault("fix", folder + ": the name has letters that systemd wants escaped", by_hand);
   std::filesystem::create_directories(file.parent_path());
   write_result(file, fmt::format("[Unit]\nRequiresMountsFor={0}\n\n[Service]\nReadWritePaths={0}\n", folder));
   return good("fix", fmt::format("{} is new: navcald.service waits for the mount of {} and may write there. It "

@@ -9,6 +9,7 @@
 
 #include "protocols/checked_line.h"
 #include "protocols/decimal.h"
+#include "protocols/described/checksum.h"
 #include "protocols/samples_line.h"
 #include "protocols/text_fields.h"
 
@@ -175,12 +176,7 @@ std::optional<Velocity> decode_old(std::string_view text) {
 }  // namespace
 
 std::uint8_t crc8(Bytes bytes) {
-  unsigned crc = 0;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x80U) != 0 ? crc << 1 ^ 0x107U : crc << 1;
-  }
-  return static_cast<std::uint8_t>(crc);
+  return static_cast<std::uint8_t>(described::sum_of(described::Sum::crc8, bytes));
 }
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {

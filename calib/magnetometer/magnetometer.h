@@ -137,6 +137,11 @@ class Magnetometer {
   /// hull's turn meanwhile, as the gyro measured it.
   /// `onset`: number of the first reading of the new field; `first_waiting`: of those that wait, the first used.
   [[nodiscard]] std::optional<FieldContrast> contrast(std::uint64_t onset, std::size_t first_waiting) const;
+  /// A step of that size from the first reading that waits on.
+  [[nodiscard]] FieldStep step_at_first_waiting(const Eigen::Vector3d& size_uT,
+                                                const Eigen::Vector3d& std_uT) const;
+  template <class Condition>
+  void leave_out_waiting(const Condition& is_left_out);
   /// Tells a step whose size no turn of the hull explains, whatever the shape of the field may be. True: it is
   /// done.
   bool tell_at_rest();

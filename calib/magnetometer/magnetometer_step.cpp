@@ -124,13 +124,8 @@ void Magnetometer::decide() {
   const bool explained = surprising - unexplained > kLeastShare * surprising;
   if (found.gain > kLeastGain && found.size_uT().norm() > kLeastStep_uT && explained && found.sudden) {
     use_those_before(onset_of(found));
-    FieldStep step;
-    step.onset_sample = waiting_.front().number;
-    step.found_sample = readings_;
-    step.time_s = waiting_.front().reading.time_s;
-    step.utc_ns = waiting_.front().reading.utc_ns;
-    step.size_uT = found.size_uT();
-    step.std_uT = found.two->covariance.diagonal().tail<3>().cwiseSqrt();
+    FieldStep step =
+        step_at_first_waiting(found.size_uT(), found.two->covariance.diagonal().tail<3>().cwiseSqrt());
     leave_out_those_between(found);
     step.contrast = contrast(step.onset_sample, 0);
     change_field(step);
@@ -141,11 +136,30 @@ void Magnetometer::decide() {
     next_decision_ = waiting_.size() + std::max<std::size_t>(4, waiting_.size() / 2);
     return;
   }
-  // Where one field explains all readings, its fit replaces that of the predictor.
+  // A single field that explains all readings has the better fit: it replaces that of the predictor.
   const double by_one = squares_of(found.waiting, found.one->shape, found.one->shape.centre_uT, noise);
   if (by_one - unexplained <= kLeastShare * surprising) now_.predictor.set_fit(*found.one);
   watch_.reset();
   release();
+}
+
+FieldStep Magnetometer::step_at_first_waiting(const Eigen::Vector3d& size_uT,
+                                              const Eigen::Vector3d& std_uT) const {
+  FieldStep step;
+  step.onset_sample = waiting_.front().number;
+  step.found_sample = readings_;
+  step.time_s = waiting_.front().reading.time_s;
+  step.utc_ns = waiting_.front().reading.utc_ns;
+  step.size_uT = size_uT;
+  step.std_uT = std_uT;
+  return step;
+}
+
+template <class Condition>
+void Magnetometer::leave_out_waiting(const Condition& is_left_out) {
+  const auto kept = std::remove_if(waiting_.begin(), waiting_.end(), is_left_out);
+  left_out_ += static_cast<std::uint64_t>(waiting_.end() - kept);
+  waiting_.erase(kept, waiting_.end());
 }
 
 bool Magnetometer::tell_at_rest() {
@@ -161,16 +175,8 @@ bool Magnetometer::tell_at_rest() {
   const auto is_between = [&](const Waiting& waiting) { return !is_new(waiting) && !is_of(before_uT, waiting); };
   // Iron that is passed comes slowly.
   if (std::count_if(waiting_.begin(), waiting_.end(), is_between) > kMostBetween) return false;
-  const auto kept = std::remove_if(waiting_.begin(), waiting_.end(), std::not_fn(is_new));
-  left_out_ += static_cast<std::uint64_t>(waiting_.end() - kept);
-  waiting_.erase(kept, waiting_.end());
-  FieldStep step;
-  step.onset_sample = waiting_.front().number;
-  step.found_sample = readings_;
-  step.time_s = waiting_.front().reading.time_s;
-  step.utc_ns = waiting_.front().reading.utc_ns;
-  step.size_uT = found->size_uT;
-  step.std_uT = found->std_uT;
+  leave_out_waiting(std::not_fn(is_new));
+  FieldStep step = step_at_first_waiting(found->size_uT, found->std_uT);
   step.contrast = found;
   change_field(step);
   return true;
@@ -203,12 +209,9 @@ void Magnetometer::leave_out_those_between(const Comparison& found) {
   const SegmentsFit& two = *found.two;
   EllipsoidShape after = two.shape;
   after.centre_uT = two.centres_uT[1];
-  const auto is_between = [&](const Waiting& waiting) {
+  leave_out_waiting([&](const Waiting& waiting) {
     return segment_residual(after, waiting.predicted.cell, found.noise).square() > kMostSquare;
-  };
-  const auto kept = std::remove_if(waiting_.begin(), waiting_.end(), is_between);
-  left_out_ += static_cast<std::uint64_t>(waiting_.end() - kept);
-  waiting_.erase(kept, waiting_.end());
+  });
 }
 
 std::optional<FieldContrast> Magnetometer::contrast(std::uint64_t onset, std::size_t first_waiting) const {
