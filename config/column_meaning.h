@@ -23,7 +23,8 @@ struct ColumnMeaning {
 
 /// In the order in which samples are written.
 [[nodiscard]] std::span<const ColumnMeaning> column_meanings();
-/// By its name, or by that of a description of a device ("rate.x"); nullptr for another.
+/// The meaning of that name, which is one of a map of columns ("rate_x") or of a description of a device
+/// ("rate.x"); nullptr for another name.
 [[nodiscard]] const ColumnMeaning* column_meaning_named(std::string_view name);
 
 using ColumnUnit = protocols::described::Unit;

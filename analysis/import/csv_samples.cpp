@@ -18,7 +18,7 @@ using protocols::described::Meaning;
 using protocols::samples_line::LineWriter;
 using Shape = CsvSamples::Shape;
 
-/// Where a meaning goes. Of a list, it is the first of three meanings in a row.
+/// The member of a sample that a meaning fills. A list has three meanings in a row, and this is that of the first.
 struct Target {
   std::string_view key;
   Shape shape = Shape::number;

@@ -74,7 +74,7 @@ class LayoutVehicle {
   }
 
   [[nodiscard]] const config::Layout& layout() const { return layout_; }
-  /// With moving masses at zero.
+  /// M while the moving masses are at zero.
   [[nodiscard]] const Matrix6& mass() const { return at_zero_.mass; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the reference vehicle is after 150 s of a mission, as it was when this was written: a change of its
+// State of the reference vehicle after 150 s of a mission, by the code of 2026-11-27: a change of its
 // equations or of the effects on it shows here.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
