@@ -24,7 +24,7 @@ GIVEN_UP = (2, 3)  # RestartPreventExitStatus of the unit
 
 
 class Case:
-    def __init__(self, seed, number, only, folder, build, may_mount):
+    def __init__(self, seed, number, only, folder, build, may_mount, patience_s):
         self.folder, self.build, self.name, self.begin = folder, build, f"{seed}/{number}", time.monotonic()
         self.log, self.path, self.key, self.config = (f"{folder}/{n}" for n in ("log", "control", "key", "navcald.toml"))
         rng = self.rng = random.Random(self.name)
@@ -32,7 +32,7 @@ class Case:
         self.kinds = [only or others[number % len(others)], *rng.choices(others, k=rng.randrange(1, 5))]
         if not only:
             rng.shuffle(self.kinds)
-        self.promise = Promise(rng.choice((0.2, 0.5, 1)))
+        self.promise = Promise(rng.choice((0.2, 0.5, 1)), patience_s)
         self.drivers, self.others, self.problems, self.timeline = [], [], [], []
         self.events, self.numbers = [], itertools.count()
         self.has_begun = self.is_over = False
@@ -79,7 +79,7 @@ class Case:
                 stood_at = now
             if now - stood_at > STANDS_S:
                 return False
-            if now - self.begin > LONGEST_S + MARGIN_OF_STALL * self.promise.stall_s:
+            if now - self.begin > LONGEST_S + self.promise.patience_s + MARGIN_OF_STALL * self.promise.stall_s:
                 self.problems.append("the case does not end")
                 return False
 
@@ -258,7 +258,9 @@ class Case:
         has_stood = self.zero_at > asked  # what came after that is a new lease's
         if not has_stood:
             self.promise.voided(asked)
-        if not done and not has_stood and self.pid and self.pid == self.stop_pid and not self.promise.outages:
+        # A navcald that was told to end hangs up, and stops the shaft itself.
+        could = self.pid and self.pid == self.stop_pid and not self.is_ending and not self.promise.outages
+        if could and not done and not has_stood:
             self.problems.append("STOP was refused")
         self.stop = None
 

@@ -19,8 +19,8 @@ FOR_EVER_S = 4  # so long after the promise nobody is expected to do anything an
 
 
 class Promise:
-    def __init__(self, echo_timeout_s):
-        self.echo_timeout_s = echo_timeout_s
+    def __init__(self, echo_timeout_s, patience_s):
+        self.echo_timeout_s, self.patience_s = echo_timeout_s, patience_s
         self.expires, self.excused, self.outages = float("inf"), 0.0, set()
         self.stall_s = self.stall_before_s = 0.0  # of the card's loop since the beginning, now and when it was last asked
         self.since = None  # the shaft turns alone
@@ -44,7 +44,7 @@ class Promise:
         return float("inf") if self.outages else max(self.since + REACTION_S, self.excused)
 
     def is_late(self, now, by_s=0):
-        margin_s = MARGIN_S + MARGIN_OF_STALL * (self.stall_s - self.stall_at_since_s)
+        margin_s = MARGIN_S + self.patience_s + MARGIN_OF_STALL * (self.stall_s - self.stall_at_since_s)
         return now > self.deadline() + margin_s + by_s
 
     def look(self, now, turns):
