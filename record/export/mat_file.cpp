@@ -48,7 +48,7 @@ void MatFile::commit() {
   errno = 0;
   if (Mat_Close(file_.release()) != 0) fail();
   // Its complaints would go to standard error; what counts is said below.
-  Mat_LogInitFunc("navcal", [](int, char*) {});
+  Mat_LogInitFunc("navcal", [](int, auto*) {});
   file_.reset(Mat_Open(path_.part().c_str(), MAT_ACC_RDONLY));
   for (const std::string& name : written_) {
     errno = 0;
