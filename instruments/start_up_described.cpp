@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -13,58 +15,41 @@ constexpr std::int64_t kPause_ns = base::kSecond_ns / 5;
 /// So long without a frame, the device has lost its power or its settings.
 constexpr std::int64_t kSilence_ns = 10 * base::kSecond_ns;
 
+std::string sent_text(unsigned rounds) {
+  return rounds == 1 ? "start-up lines sent" : fmt::format("start-up lines sent {} times, no frames", rounds);
+}
+
 /// Sends the start-up lines of a description, with a pause between them, and again when no frame of the device has
 /// come for a while. Answers are not waited for: a description does not know them.
 class StartUpDescribed final : public StartUp {
  public:
-  explicit StartUpDescribed(std::vector<std::string> lines) : lines_(std::move(lines)) {}
-
-  void begin(std::int64_t now_ns) override;
-  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] bool in_service() const override { return frames_came_; }
-  [[nodiscard]] std::string state() const override;
+  explicit StartUpDescribed(std::vector<std::string> lines) : StartUp(kSending), lines_(std::move(lines)) {}
 
  private:
+  Script script() override {
+    const auto is_frame = [](const protocols::Frame&) { return true; };
+    const auto bytes_of = [](const std::string& line) {
+      return std::vector<std::uint8_t>(line.begin(), line.end());
+    };
+    enter(kSending);
+    all_sent_ = false;
+    for (unsigned rounds = 1;; ++rounds) {
+      for (std::size_t i = 0; i + 1 < lines_.size(); ++i) co_await send(bytes_of(lines_[i]), kPause_ns);
+      all_sent_ = true;
+      enter(in_service() ? "running" : sent_text(rounds), in_service());
+      bool frames_come = co_await ask(bytes_of(lines_.back()), 1, kSilence_ns, is_frame);
+      while (frames_come) frames_come = co_await wait(kSilence_ns, is_frame);
+      enter(sent_text(rounds));
+    }
+  }
+  void on_any_frame(const protocols::Frame&) override { enter(all_sent_ ? "running" : kSending, true); }
+
+  static constexpr const char* kSending = "sending the start-up lines";
   std::vector<std::string> lines_;
-  std::size_t sent_ = 0;      ///< lines of this round
-  bool frames_came_ = false;  ///< since the last round
-  unsigned rounds_ = 0;
+  bool all_sent_ = false;  ///< once
 };
 
 }  // namespace
-
-void StartUpDescribed::begin(std::int64_t now_ns) {
-  sent_ = 0;
-  rounds_ = 0;
-  frames_came_ = false;
-  due_ns_ = now_ns;
-}
-
-void StartUpDescribed::on_frame(const protocols::Frame& /*frame*/, std::int64_t now_ns) {
-  frames_came_ = true;
-  if (sent_ == lines_.size()) due_ns_ = now_ns + kSilence_ns;
-}
-
-std::optional<std::vector<std::uint8_t>> StartUpDescribed::next(std::int64_t now_ns) {
-  if (now_ns < due_ns_ || lines_.empty()) return std::nullopt;
-  if (sent_ == lines_.size()) {
-    sent_ = 0;
-    frames_came_ = false;
-  }
-  const std::string& line = lines_[sent_++];
-  const bool is_last = sent_ == lines_.size();
-  if (is_last) ++rounds_;
-  due_ns_ = now_ns + (is_last ? kSilence_ns : kPause_ns);
-  return std::vector<std::uint8_t>(line.begin(), line.end());
-}
-
-std::string StartUpDescribed::state() const {
-  if (rounds_ == 0) return "sending the start-up lines";
-  if (frames_came_) return "running";
-  return rounds_ == 1 ? "start-up lines sent"
-                      : "start-up lines sent " + std::to_string(rounds_) + " times, no frames";
-}
 
 std::unique_ptr<StartUp> start_described(const config::PortSettings& settings) {
   const bool has_lines = settings.described && !settings.described->start_up.empty();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
+#include <utility>
 
 #include "base/durations.h"
 #include "instruments/start_ups.h"
@@ -18,73 +19,51 @@ constexpr unsigned kSilentPolls = 10;
 /// Keller transmitter (ICD section 15): initialises it (F48), then asks for the pressure ten times a second (F73).
 /// A transmitter that says it is not initialised, or that is silent, is initialised anew.
 class StartUpKeller final : public StartUp {
- public:
-  void begin(std::int64_t now_ns) override;
-  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] bool in_service() const override { return phase_ == Phase::polling; }
-  [[nodiscard]] std::string state() const override;
-
  private:
-  enum class Phase : std::uint8_t {
-    idle,          ///< begin() has not been called
-    initialising,  ///< F48 is to be sent, or its answer is awaited
-    polling,       ///< F73 is sent at each due_ns_
-  };
+  Script script() override {
+    for (;;) {
+      enter("initialising (F48)");
+      refuses_ = false;
+      while (!co_await ask(keller::initialise_request(keller::kAnyAddress), 1, kIdentityAnswer_ns,
+                           [](const protocols::Frame& frame) { return frame.id == keller::kInitialised; })) {
+        if (!refuses_) enter("no answer to F48: trying again twice a second");
+      }
+      refuses_ = lost_ = false;
+      enter(kRunning, true);
+      for (unsigned silent_polls = 0; silent_polls < kSilentPolls && !lost_;) {
+        ++silent_polls;
+        co_await ask(keller::read_request(keller::kAnyAddress, keller::kPressureChannel), 1, to_the_next_poll_ns(),
+                     [this, &silent_polls](const protocols::Frame& frame) {
+                       if (frame.id == keller::kReading) {
+                         silent_polls = 0;
+                         if (std::exchange(refuses_, false)) enter(kRunning, true);
+                       }
+                       return lost_;
+                     });
+      }
+    }
+  }
 
-  Phase phase_ = Phase::idle;
-  unsigned unanswered_ = 0;   ///< requests in a row
-  std::uint8_t refused_ = 0;  ///< error of the last refusal since the last answer; 0: none
+  void on_any_frame(const protocols::Frame& frame) override {
+    const auto refusal = keller::decode_refusal(frame.bytes);
+    if (!refusal || frame.id != keller::kError) return;
+    lost_ = refusal->error == keller::kNotInitialised;
+    refuses_ = !lost_;
+    if (refuses_) enter("the transmitter refuses, error " + std::to_string(refusal->error), in_service());
+  }
+
+  /// Polls keep their beat, unless the host was late by more than one.
+  [[nodiscard]] std::int64_t to_the_next_poll_ns() const {
+    const std::int64_t late_ns = now_ns() - deadline_ns();
+    return late_ns > 0 && late_ns < kPoll_ns ? kPoll_ns - late_ns : kPoll_ns;
+  }
+
+  static constexpr const char* kRunning = "running, asked ten times a second";
+  bool refuses_ = false;  ///< since the last answer
+  bool lost_ = false;     ///< it is not initialised any more
 };
 
 }  // namespace
-
-void StartUpKeller::begin(std::int64_t now_ns) {
-  phase_ = Phase::initialising;
-  due_ns_ = now_ns;
-  unanswered_ = 0;
-  refused_ = 0;
-}
-
-void StartUpKeller::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (phase_ == Phase::idle) return;
-  if (frame.id == keller::kInitialised && phase_ == Phase::initialising) {
-    phase_ = Phase::polling;
-    due_ns_ = now_ns;
-    unanswered_ = 0;
-    refused_ = 0;
-  } else if (frame.id == keller::kReading && phase_ == Phase::polling) {
-    unanswered_ = 0;
-    refused_ = 0;
-  } else if (const auto refusal = keller::decode_refusal(frame.bytes); refusal && frame.id == keller::kError) {
-    refused_ = refusal->error;
-    if (phase_ == Phase::polling && refusal->error == keller::kNotInitialised) {
-      phase_ = Phase::initialising;
-      due_ns_ = now_ns;
-    }
-  }
-}
-
-std::optional<std::vector<std::uint8_t>> StartUpKeller::next(std::int64_t now_ns) {
-  if (now_ns < due_ns_) return std::nullopt;
-  if (phase_ == Phase::polling && unanswered_ >= kSilentPolls) phase_ = Phase::initialising;
-  ++unanswered_;
-  if (phase_ == Phase::initialising) {
-    due_ns_ = now_ns + kIdentityAnswer_ns;
-    return keller::initialise_request(keller::kAnyAddress);
-  }
-  // Polls keep their beat, unless the host was late by more than one.
-  due_ns_ = now_ns - due_ns_ < kPoll_ns ? due_ns_ + kPoll_ns : now_ns + kPoll_ns;
-  return keller::read_request(keller::kAnyAddress, keller::kPressureChannel);
-}
-
-std::string StartUpKeller::state() const {
-  if (phase_ == Phase::idle) return "not begun";
-  if (refused_ != 0 && refused_ != keller::kNotInitialised)
-    return "the transmitter refuses, error " + std::to_string(refused_);
-  if (phase_ == Phase::polling) return "running, asked ten times a second";
-  return unanswered_ < 2 ? "initialising (F48)" : "no answer to F48: trying again twice a second";
-}
 
 std::unique_ptr<StartUp> start_keller(const config::PortSettings&) { return std::make_unique<StartUpKeller>(); }
 

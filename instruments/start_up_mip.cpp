@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/durations.h"
@@ -66,16 +69,11 @@ std::string list_text(FieldList list) {
 /// argument gets the older ones. Begins anew when the data stop, and when the device's clock begins anew.
 class StartUpMip final : public StartUp {
  public:
-  explicit StartUpMip(const config::PortSettings& settings);
-
-  void begin(std::int64_t now_ns) override;
-  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] bool in_service() const override { return step_ == Step::running; }
-  [[nodiscard]] std::string state() const override;
+  explicit StartUpMip(const config::PortSettings& settings)
+      : rate_Hz_(settings.rate_Hz > 0 ? settings.rate_Hz : kUsualRate_Hz) {}
 
  private:
-  /// In the order of the dialogue; up to `resume` each is a command.
+  /// In the order of the dialogue.
   enum class Step : std::uint8_t {
     ping,
     to_idle,
@@ -86,146 +84,125 @@ class StartUpMip final : public StartUp {
     sensor_stream,
     filter_stream,
     resume,
-    awaiting_data,
-    running,
-    resting,  ///< no answer to ping; all is repeated at due_ns_
-    not_begun,
+    end,
   };
 
-  void enter(Step step, std::int64_t due_ns);
-  void on_data(const protocols::mip::Packet& packet, std::int64_t now_ns);
-  void on_reply(const protocols::mip::Packet& packet, std::int64_t now_ns);
-  void on_refused(std::uint8_t error, std::int64_t now_ns);
-  void on_unanswered(std::int64_t now_ns);
-  void go_on(std::int64_t now_ns);
-  void add_to_refused(const std::string& what);
-  [[nodiscard]] bool is_command() const { return step_ <= Step::resume; }
-  [[nodiscard]] std::vector<std::uint8_t> command() const;
+  Script script() override;
+  void on_any_frame(const protocols::Frame& frame) override {
+    data_seen_ = data_seen_ || (frame.bytes.size() > 2 && frame.bytes[2] >= mip::kSensorSet);
+  }
+  bool is_data(const protocols::Frame& frame);
+  bool is_reply(const protocols::Frame& frame, Step step, const std::vector<std::uint8_t>& sent);
+  /// After a refusal; true: the step is to be tried again, with less.
+  bool take_less(Step step);
+  [[nodiscard]] std::string remark() const override {
+    return in_service() || fruitless_ == 0 ? "" : "; attempt " + std::to_string(fruitless_ + 1);
+  }
+  [[nodiscard]] std::vector<std::uint8_t> command(Step step) const;
   [[nodiscard]] std::vector<std::uint8_t> format(std::uint8_t set) const;
 
   double rate_Hz_;
-  Step step_ = Step::not_begun;
-  int attempts_ = 0;     ///< times that the command of this step was sent
-  bool by_set_ = false;  ///< the older commands
+  std::uint8_t error_ = mip::reply_error::kNone;  ///< of the last reply
+  bool by_set_ = false;                           ///< the older commands
   bool has_filter_ = true;
   std::uint16_t sensor_base_Hz_ = 0, filter_base_Hz_ = 0;
   std::size_t sensor_list_ = 0, filter_list_ = 0;  ///< lists of fields that are tried
-  unsigned fruitless_ = 0;                         ///< dialogues in a row after which no data came
   bool data_seen_ = false;                         ///< since the ping
+  bool clock_is_back_ = false;                     ///< the device's clock has begun anew
   std::uint64_t device_time_ns_ = 0;
-  std::string refused_;  ///< for people
 };
 
 }  // namespace
 
-StartUpMip::StartUpMip(const config::PortSettings& settings)
-    : rate_Hz_(settings.rate_Hz > 0 ? settings.rate_Hz : kUsualRate_Hz) {}
-
-void StartUpMip::begin(std::int64_t now_ns) {
-  by_set_ = false;
-  has_filter_ = true;
-  data_seen_ = false;
-  sensor_list_ = filter_list_ = 0;
-  sensor_base_Hz_ = filter_base_Hz_ = kUsualBase_Hz;
-  refused_.clear();
-  enter(Step::ping, now_ns);
+StartUp::Script StartUpMip::script() {
+  for (std::int64_t pause_ns = 0;;) {
+    by_set_ = data_seen_ = clock_is_back_ = false;
+    has_filter_ = true;
+    sensor_list_ = filter_list_ = 0;
+    sensor_base_Hz_ = filter_base_Hz_ = kUsualBase_Hz;
+    refused_.clear();
+    enter("asking for an answer");
+    if (std::exchange(pause_ns, 0) > 0) co_await wait(kMipStopped_ns);
+    Step step = Step::ping;
+    while (step != Step::end) {
+      const auto bytes = command(step);
+      if (step != Step::ping) enter(fmt::format("configuring (step {} of 9)", static_cast<int>(step) + 1));
+      if (!co_await ask(bytes, kMipAttempts, kMipAnswer_ns,
+                        [&](const protocols::Frame& frame) { return is_reply(frame, step, bytes); }))
+        break;
+      if (error_ != mip::reply_error::kNone && take_less(step)) continue;
+      do {
+        step = static_cast<Step>(static_cast<std::uint8_t>(step) + 1);
+      } while (!has_filter_ && (step == Step::filter_format || step == Step::filter_stream));
+    }
+    if (step == Step::ping) {
+      ++fruitless_;
+      enter(data_seen_ ? "streams, but does not answer commands: trying again every 10 s"
+                       : "no answer to ping: trying again every 10 s");
+      co_await wait(kMipRest_ns);
+      continue;
+    }
+    if (step != Step::end) {
+      // A device that answered before has restarted, or answers are lost: from the beginning.
+      ++fruitless_;
+      pause_ns = kMipStopped_ns;
+      continue;
+    }
+    enter("configured, waiting for data");
+    const auto is_data_of_device = [this](const protocols::Frame& frame) { return is_data(frame); };
+    if (!co_await wait(kMipStopped_ns, is_data_of_device)) {
+      ++fruitless_;
+      continue;
+    }
+    fruitless_ = 0;
+    clock_is_back_ = false;
+    enter("running on " + list_text(kSensorLists[sensor_list_]) +
+              (has_filter_ ? ", filter " + list_text(kFilterLists[filter_list_]) : ""),
+          true);
+    while (!clock_is_back_ && co_await wait(kMipStopped_ns, is_data_of_device)) continue;
+  }
 }
 
-void StartUpMip::enter(Step step, std::int64_t due_ns) {
-  step_ = step;
-  due_ns_ = due_ns;
-  attempts_ = 0;
-}
-
-void StartUpMip::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (step_ == Step::not_begun) return;
+bool StartUpMip::is_data(const protocols::Frame& frame) {
   const mip::Packet packet = mip::decode(frame.bytes);
-  if (packet.set >= mip::kSensorSet) {
-    on_data(packet, now_ns);
-  } else if (packet.reply) {
-    on_reply(packet, now_ns);
-  }
-}
-
-void StartUpMip::on_data(const mip::Packet& packet, std::int64_t now_ns) {
-  data_seen_ = true;
-  if (step_ != Step::awaiting_data && step_ != Step::running) return;
   if (packet.set == mip::kSensorSet && packet.reference_time_ns) {
-    const bool back = *packet.reference_time_ns + kClockBack_ns < device_time_ns_;
+    clock_is_back_ = *packet.reference_time_ns + kClockBack_ns < device_time_ns_;
     device_time_ns_ = *packet.reference_time_ns;
-    if (back && step_ == Step::running) return begin(now_ns);
   }
-  step_ = Step::running;
-  due_ns_ = now_ns + kMipStopped_ns;
-  fruitless_ = 0;
+  return packet.set >= mip::kSensorSet;
 }
 
-void StartUpMip::on_reply(const mip::Packet& packet, std::int64_t now_ns) {
-  if (!is_command() || attempts_ == 0) return;
-  const auto sent = command();
+bool StartUpMip::is_reply(const protocols::Frame& frame, Step step, const std::vector<std::uint8_t>& sent) {
+  const mip::Packet packet = mip::decode(frame.bytes);
   // Set and descriptor of the command that is under way; anything else is a late answer.
-  if (packet.set != sent[2] || packet.reply->command != sent[5]) return;
-  if (packet.reply->error != mip::reply_error::kNone) return on_refused(packet.reply->error, now_ns);
-  if (packet.base_rate && packet.base_rate->rate_Hz > 0) {
-    if (step_ == Step::sensor_rate) sensor_base_Hz_ = packet.base_rate->rate_Hz;
-    if (step_ == Step::filter_rate) filter_base_Hz_ = packet.base_rate->rate_Hz;
+  if (!packet.reply || packet.set != sent[2] || packet.reply->command != sent[5]) return false;
+  error_ = packet.reply->error;
+  if (error_ == mip::reply_error::kNone && packet.base_rate && packet.base_rate->rate_Hz > 0) {
+    if (step == Step::sensor_rate) sensor_base_Hz_ = packet.base_rate->rate_Hz;
+    if (step == Step::filter_rate) filter_base_Hz_ = packet.base_rate->rate_Hz;
   }
-  go_on(now_ns);
+  return true;
 }
 
-void StartUpMip::go_on(std::int64_t now_ns) {
-  auto next = static_cast<Step>(static_cast<std::uint8_t>(step_) + 1);
-  if (!has_filter_ && (next == Step::filter_format || next == Step::filter_stream)) {
-    next = static_cast<Step>(static_cast<std::uint8_t>(next) + 1);
-  }
-  enter(next, next == Step::awaiting_data ? now_ns + kMipStopped_ns : now_ns);
-}
-
-void StartUpMip::on_refused(std::uint8_t error, std::int64_t now_ns) {
-  switch (step_) {
-    case Step::sensor_rate:
-      if (!by_set_ && error == mip::reply_error::kUnknownCommand) {
-        by_set_ = true;
-        return enter(Step::sensor_rate, now_ns);
-      }
-      break;
+bool StartUpMip::take_less(Step step) {
+  switch (step) {
+    case Step::sensor_rate: return error_ == mip::reply_error::kUnknownCommand && !std::exchange(by_set_, true);
     case Step::filter_rate: has_filter_ = false; break;
     case Step::sensor_format:
-      if (sensor_list_ + 1 < kSensorLists.size()) {
-        ++sensor_list_;
-        return enter(Step::sensor_format, now_ns);
-      }
-      add_to_refused("sensor data");
+      if (sensor_list_ + 1 < kSensorLists.size()) return ++sensor_list_, true;
+      note(refused_, "sensor data");
       break;
     case Step::filter_format:
-      if (filter_list_ + 1 < kFilterLists.size()) {
-        ++filter_list_;
-        return enter(Step::filter_format, now_ns);
-      }
+      if (filter_list_ + 1 < kFilterLists.size()) return ++filter_list_, true;
       has_filter_ = false;
-      add_to_refused("filter data");
+      note(refused_, "filter data");
       break;
-    case Step::sensor_stream: add_to_refused("stream of sensor data"); break;
-    case Step::filter_stream: add_to_refused("stream of filter data"); break;
-    case Step::resume: add_to_refused("resume"); break;
+    case Step::sensor_stream: note(refused_, "stream of sensor data"); break;
+    case Step::filter_stream: note(refused_, "stream of filter data"); break;
+    case Step::resume: note(refused_, "resume"); break;
     default: break;
   }
-  go_on(now_ns);
-}
-
-void StartUpMip::on_unanswered(std::int64_t now_ns) {
-  if (step_ == Step::ping) {
-    ++fruitless_;
-    return enter(Step::resting, now_ns + kMipRest_ns);
-  }
-  // A device that answered before has restarted, or answers are lost: from the beginning.
-  ++fruitless_;
-  begin(now_ns + kMipStopped_ns);
-}
-
-void StartUpMip::add_to_refused(const std::string& what) {
-  if (!refused_.empty()) refused_ += ", ";
-  refused_ += what;
+  return false;
 }
 
 std::vector<std::uint8_t> StartUpMip::format(std::uint8_t set) const {
@@ -240,8 +217,8 @@ std::vector<std::uint8_t> StartUpMip::format(std::uint8_t set) const {
   return by_set_ ? mip::encode_format_by_set(set, rates) : mip::encode_message_format(set, rates);
 }
 
-std::vector<std::uint8_t> StartUpMip::command() const {
-  switch (step_) {
+std::vector<std::uint8_t> StartUpMip::command(Step step) const {
+  switch (step) {
     case Step::to_idle: return mip::encode_command(mip::BaseCommand::set_to_idle);
     case Step::sensor_rate: return mip::encode_base_rate_request(mip::kSensorSet, by_set_);
     case Step::filter_rate: return mip::encode_base_rate_request(mip::kFilterSet, by_set_);
@@ -252,41 +229,6 @@ std::vector<std::uint8_t> StartUpMip::command() const {
     case Step::resume: return mip::encode_command(mip::BaseCommand::resume);
     default: return mip::encode_command(mip::BaseCommand::ping);
   }
-}
-
-std::optional<std::vector<std::uint8_t>> StartUpMip::next(std::int64_t now_ns) {
-  if (now_ns < due_ns_) return std::nullopt;
-  if (is_command() && attempts_ >= kMipAttempts) {
-    on_unanswered(now_ns);
-    if (now_ns < due_ns_) return std::nullopt;
-  }
-  if (step_ == Step::awaiting_data) ++fruitless_;
-  if (!is_command()) begin(now_ns);
-  ++attempts_;
-  const auto bytes = command();
-  due_ns_ = now_ns + kMipAnswer_ns;
-  return bytes;
-}
-
-std::string StartUpMip::state() const {
-  std::string text;
-  switch (step_) {
-    case Step::not_begun: return "not begun";
-    case Step::resting:
-      text = data_seen_ ? "streams, but does not answer commands: trying again every 10 s"
-                        : "no answer to ping: trying again every 10 s";
-      break;
-    case Step::awaiting_data: text = "configured, waiting for data"; break;
-    case Step::running:
-      text = "running on " + list_text(kSensorLists[sensor_list_]);
-      if (has_filter_) text += ", filter " + list_text(kFilterLists[filter_list_]);
-      break;
-    case Step::ping: text = "asking for an answer"; break;
-    default: text = "configuring (step " + std::to_string(static_cast<int>(step_) + 1) + " of 9)"; break;
-  }
-  if (step_ != Step::running && fruitless_ > 0) text += "; attempt " + std::to_string(fruitless_ + 1);
-  if (!refused_.empty()) text += "; refused: " + refused_;
-  return text;
 }
 
 std::unique_ptr<StartUp> start_mip(const config::PortSettings& settings) {

@@ -30,157 +30,97 @@ constexpr trax::Component kComponents[] = {
 
 constexpr std::uint8_t number_of(trax::FrameNumber number) { return static_cast<std::uint8_t>(number); }
 
+bool is_number(const protocols::Frame& frame, std::uint8_t number) {
+  return frame.bytes.size() >= trax::kOverhead && frame.bytes[2] == number;
+}
+
 /// PNI TRAX, TCM3 and Prime (ICD section 11): stops the output, asks who is there, sets magnetic north, degrees
 /// and byte order, the interval and the components, and starts continuous output. A device that sends nothing then
 /// is polled. Nothing is saved in the device. Begins anew when the data stop.
 class StartUpPni final : public StartUp {
  public:
-  explicit StartUpPni(const config::PortSettings& settings);
-
-  void begin(std::int64_t now_ns) override;
-  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
-  [[nodiscard]] std::string state() const override;
+  explicit StartUpPni(const config::PortSettings& settings)
+      : rate_Hz_(settings.rate_Hz > 0 ? settings.rate_Hz : kUsualPniRate_Hz) {}
 
  private:
-  enum class Phase : std::uint8_t {
-    idle,           ///< begin() has not been called
-    configuring,    ///< commands_[current_] is to be sent or waits for its answer
-    awaiting_data,  ///< continuous output was started
-    running,
-    resting,  ///< no answer; all is repeated at due_ns_
-  };
   struct Command {
     std::vector<std::uint8_t> bytes;
     std::uint8_t answer = 0;  ///< number of the frame that answers it; 0: none does
     std::string_view name{};
   };
-  [[nodiscard]] std::vector<Command> commands() const;
-  void go_on(std::int64_t now_ns);
-  void start(bool polled, std::int64_t now_ns);
+
+  /// The first command also ends a frame that was cut off: the device has no other sign of where one begins.
+  [[nodiscard]] std::vector<Command> commands(bool polled) const {
+    using trax::FrameNumber;
+    using trax::Setting;
+    constexpr auto kDone = number_of(FrameNumber::set_config_done);
+    std::vector<Command> commands{
+        {trax::encode_frame(FrameNumber::stop_continuous), 0, "stop"},
+        {trax::encode_frame(FrameNumber::get_module_info), number_of(FrameNumber::module_info), "GetModInfo"},
+        {trax::encode_setting(Setting::true_north, 0), kDone, "magnetic north"},
+        {trax::encode_setting(Setting::mils, 0), kDone, "degrees"},
+        {trax::encode_setting(Setting::big_endian, 1), kDone, "byte order"},
+        {trax::encode_acquisition({polled, polled ? 0 : 1 / rate_Hz_}), number_of(FrameNumber::acquisition_done),
+         "acquisition"},
+        {trax::encode_components(kComponents), 0, "components"}};
+    if (!polled) commands.push_back({trax::encode_frame(FrameNumber::start_continuous), 0, "start"});
+    return commands;
+  }
+
+  Script script() override {
+    const std::int64_t stopped_ns = stopped_after_ns(rate_Hz_, kPniStopped_ns);
+    for (bool polled = false;;) {
+      unanswered_.clear();
+      bool is_there = true;
+      for (const Command& command : commands(polled)) {
+        enter("configuring: " + std::string(command.name));
+        if (command.answer == 0) {
+          co_await send(command.bytes, kPniObeys_ns);
+          continue;
+        }
+        const bool answered =
+            co_await ask(command.bytes, kPniAttempts, kPniAnswer_ns,
+                         [&command](const protocols::Frame& frame) { return is_number(frame, command.answer); });
+        is_there = answered || command.answer != number_of(trax::FrameNumber::module_info);
+        if (!is_there) break;
+        if (!answered) note(unanswered_, std::string(command.name));
+      }
+      if (!is_there) {
+        ++fruitless_;
+        enter("no answer: trying again every 10 s");
+        co_await wait(kPniRest_ns);
+        polled = false;
+        continue;
+      }
+      enter("configured, waiting for data");
+      std::int64_t data_ns = now_ns();  // the newest came, or was first waited for
+      const auto is_data = [this, polled, &data_ns](const protocols::Frame& frame) {
+        if (!is_number(frame, number_of(trax::FrameNumber::data))) return false;
+        if (!in_service()) enter(polled ? "running, polled" : "running", true);
+        fruitless_ = 0;
+        data_ns = now_ns();
+        return !polled;  // polls keep their beat
+      };
+      while (now_ns() - data_ns < stopped_ns) {
+        if (polled) {
+          co_await ask(trax::encode_frame(trax::FrameNumber::get_data), 1, std::llround(1e9 / rate_Hz_), is_data);
+        } else {
+          co_await wait(stopped_ns, is_data);
+        }
+      }
+      if (!in_service()) ++fruitless_;
+      // Continuous output that never began may be a mode that this device does not have.
+      polled = !in_service() && !polled;
+    }
+  }
+  [[nodiscard]] std::string remark() const override {
+    return in_service() || fruitless_ == 0 ? "" : "; attempt " + std::to_string(fruitless_ + 1);
+  }
 
   double rate_Hz_;
-  std::int64_t stopped_after_ns_;
-  std::vector<Command> commands_;
-  Phase phase_ = Phase::idle;
-  bool polled_ = false;
-  std::int64_t data_ns_ = 0;  ///< the newest came, or was first waited for
-  std::size_t current_ = 0;
-  int attempts_ = 0;
-  unsigned fruitless_ = 0;
-  std::string unanswered_;  ///< for people
 };
 
 }  // namespace
-
-StartUpPni::StartUpPni(const config::PortSettings& settings)
-    : rate_Hz_(settings.rate_Hz > 0 ? settings.rate_Hz : kUsualPniRate_Hz),
-      stopped_after_ns_(std::max(kPniStopped_ns, static_cast<std::int64_t>(3e9 / rate_Hz_))) {}
-
-/// The first command also ends a frame that was cut off: the device has no other sign of where one begins.
-std::vector<StartUpPni::Command> StartUpPni::commands() const {
-  using trax::FrameNumber;
-  using trax::Setting;
-  constexpr auto kDone = number_of(FrameNumber::set_config_done);
-  std::vector<Command> commands{
-      {trax::encode_frame(FrameNumber::stop_continuous), 0, "stop"},
-      {trax::encode_frame(FrameNumber::get_module_info), number_of(FrameNumber::module_info), "GetModInfo"},
-      {trax::encode_setting(Setting::true_north, 0), kDone, "magnetic north"},
-      {trax::encode_setting(Setting::mils, 0), kDone, "degrees"},
-      {trax::encode_setting(Setting::big_endian, 1), kDone, "byte order"},
-      {trax::encode_acquisition({polled_, polled_ ? 0 : 1 / rate_Hz_}), number_of(FrameNumber::acquisition_done),
-       "acquisition"},
-      {trax::encode_components(kComponents), 0, "components"}};
-  if (!polled_) commands.push_back({trax::encode_frame(FrameNumber::start_continuous), 0, "start"});
-  return commands;
-}
-
-void StartUpPni::begin(std::int64_t now_ns) { start(false, now_ns); }
-
-void StartUpPni::start(bool polled, std::int64_t now_ns) {
-  polled_ = polled;
-  commands_ = commands();
-  phase_ = Phase::configuring;
-  current_ = 0;
-  attempts_ = 0;
-  due_ns_ = now_ns;
-  unanswered_.clear();
-}
-
-void StartUpPni::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (frame.bytes.size() < trax::kOverhead) return;
-  const std::uint8_t number = frame.bytes[2];
-  if (phase_ == Phase::configuring) {
-    if (attempts_ > 0 && commands_[current_].answer == number) go_on(now_ns);
-    return;
-  }
-  if (number != number_of(trax::FrameNumber::data)) return;
-  if (phase_ != Phase::awaiting_data && phase_ != Phase::running) return;
-  phase_ = Phase::running;
-  fruitless_ = 0;
-  data_ns_ = now_ns;
-  if (!polled_) due_ns_ = now_ns + stopped_after_ns_;
-}
-
-void StartUpPni::go_on(std::int64_t now_ns) {
-  attempts_ = 0;
-  due_ns_ = now_ns;
-  if (++current_ < commands_.size()) return;
-  phase_ = Phase::awaiting_data;
-  data_ns_ = now_ns;
-  if (!polled_) due_ns_ = now_ns + stopped_after_ns_;
-}
-
-std::optional<std::vector<std::uint8_t>> StartUpPni::next(std::int64_t now_ns) {
-  if (phase_ == Phase::idle || now_ns < due_ns_) return std::nullopt;
-  if (phase_ == Phase::configuring && attempts_ > 0) {
-    const Command& command = commands_[current_];
-    const bool asks_who = command.answer == number_of(trax::FrameNumber::module_info);
-    if (command.answer == 0) {
-      go_on(now_ns);
-    } else if (attempts_ >= kPniAttempts && asks_who) {
-      ++fruitless_;
-      phase_ = Phase::resting;
-      due_ns_ = now_ns + kPniRest_ns;
-    } else if (attempts_ >= kPniAttempts) {
-      if (!unanswered_.empty()) unanswered_ += ", ";
-      unanswered_ += command.name;
-      go_on(now_ns);
-    }
-  } else if (phase_ == Phase::resting) {
-    begin(now_ns);
-  } else if (phase_ == Phase::awaiting_data || phase_ == Phase::running) {
-    if (now_ns - data_ns_ >= stopped_after_ns_) {
-      if (phase_ == Phase::awaiting_data) ++fruitless_;
-      // Continuous output that never began may be a mode that this device does not have.
-      start(phase_ == Phase::awaiting_data && !polled_, now_ns);
-    }
-  }
-  if (now_ns < due_ns_) return std::nullopt;
-  if (phase_ == Phase::awaiting_data || phase_ == Phase::running) {
-    due_ns_ = now_ns + std::llround(1e9 / rate_Hz_);
-    return trax::encode_frame(trax::FrameNumber::get_data);
-  }
-  if (phase_ != Phase::configuring) return std::nullopt;
-  ++attempts_;
-  due_ns_ = now_ns + (commands_[current_].answer == 0 ? kPniObeys_ns : kPniAnswer_ns);
-  return commands_[current_].bytes;
-}
-
-std::string StartUpPni::state() const {
-  std::string text;
-  switch (phase_) {
-    case Phase::idle: return "not begun";
-    case Phase::configuring: text = "configuring: " + std::string(commands_[current_].name); break;
-    case Phase::awaiting_data: text = "configured, waiting for data"; break;
-    case Phase::running: text = polled_ ? "running, polled" : "running"; break;
-    case Phase::resting: text = "no answer: trying again every 10 s"; break;
-  }
-  if (phase_ != Phase::running && fruitless_ > 0) text += "; attempt " + std::to_string(fruitless_ + 1);
-  if (!unanswered_.empty()) text += "; no answer to: " + unanswered_;
-  return text;
-}
 
 std::unique_ptr<StartUp> start_pni(const config::PortSettings& settings) {
   return std::make_unique<StartUpPni>(settings);

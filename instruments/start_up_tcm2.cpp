@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,7 +10,6 @@
 #include "base/durations.h"
 #include "instruments/start_ups.h"
 #include "instruments/tcm2_dialogue.h"
-#include "protocols/decimal.h"
 #include "protocols/tcm2.h"
 #include "protocols/tcm2_commands.h"
 
@@ -67,180 +68,75 @@ std::vector<tcm2::Command> settings_for(const config::PortSettings& port) {
   return commands;
 }
 
+std::vector<std::uint8_t> bytes_of(Verb verb) { return tcm2::encode_command({verb}); }
+
 std::string text_of(const tcm2::Command& command) {
   const auto bytes = tcm2::encode_command(command);
   return {bytes.begin(), bytes.end() - 1};  // without its CR
-}
-
-void add_to_list(std::string& list, const std::string& item) {
-  if (!list.empty()) list += ", ";
-  list += item;
 }
 
 /// TCM2 (ICD section 1): `h` twice, the settings one after the other, `go`. Begins again when the device announces
 /// itself (banner) or its words stop.
 class StartUpTcm2 final : public StartUp {
  public:
-  explicit StartUpTcm2(const config::PortSettings& settings);
-
-  void begin(std::int64_t now_ns) override;
-  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
-  [[nodiscard]] std::string state() const override;
+  explicit StartUpTcm2(const config::PortSettings& settings)
+      : settings_(settings_for(settings)), stopped_ns_(stopped_after_ns(settings.rate_Hz, kTcm2Stopped_ns)) {}
 
  private:
-  enum class Phase : std::uint8_t {
-    idle,           ///< begin() has not been called
-    first_halt,     ///< the first `h` is due
-    second_halt,    ///< the second `h` is due
-    setting,        ///< settings_[current_] is to be sent or waits for its reply
-    awaiting_word,  ///< `go` was sent
-    running,
-  };
+  Script script() override {
+    for (;;) {
+      enter("halting the device");
+      refused_.clear();
+      unanswered_.clear();
+      co_await send(bytes_of(Verb::halt), kBetweenHalts_ns);
+      co_await send(bytes_of(Verb::halt), kSettle_ns);
+      for (std::size_t i = 0; i < settings_.size(); ++i) {
+        const tcm2::Command& setting = settings_[i];
+        enter(fmt::format("setting {} ({} of {})", text_of(setting), i + 1, settings_.size()));
+        // After one setting was repeated in vain, the following ones are not repeated. A device whose replies do
+        // not come through is then in service soon all the same.
+        if (!co_await ask(tcm2::encode_command(setting), unanswered_.empty() ? kAttempts : 1, kReplyTimeout_ns,
+                          [this, &setting](const protocols::Frame& frame) { return is_reply(frame, setting); }))
+          note(unanswered_, text_of(setting));
+      }
+      enter("settings sent, waiting for words");
+      const std::int64_t patience_ns =
+          std::max(stopped_ns_, std::min(stopped_ns_ << std::min(fruitless_, 4U), kMostPatience_ns));
+      if (!co_await ask(bytes_of(Verb::go), 1, patience_ns, is_word)) {
+        ++fruitless_;
+        continue;
+      }
+      enter("running", true);
+      fruitless_ = 0;
+      while (co_await wait(stopped_ns_, is_word)) continue;
+    }
+  }
+  void on_any_frame(const protocols::Frame& frame) override {
+    if (frame.id == tcm2::kBanner) start_at(now_ns() + kSettle_ns);
+  }
+  [[nodiscard]] std::string remark() const override {
+    return fruitless_ == 0 ? "" : fmt::format("; no words came so far, attempt {}", fruitless_ + 1);
+  }
 
-  void halt_at(std::int64_t when_ns);
-  void on_reply(const protocols::Frame& frame, std::int64_t now_ns);
-  std::optional<std::vector<std::uint8_t>> next_setting(std::int64_t now_ns);
-  [[nodiscard]] int attempts_allowed() const;
-  void go_on_to_next(std::int64_t now_ns);
+  static bool is_word(const protocols::Frame& frame) {
+    return frame.id != tcm2::kReply && frame.id != tcm2::kBanner;
+  }
+
+  bool is_reply(const protocols::Frame& frame, const tcm2::Command& setting) {
+    if (frame.id != tcm2::kReply) return false;
+    const auto reply = tcm2::decode_reply(frame.bytes);
+    if (!reply || reply->kind == tcm2::Reply::Kind::calibration) return false;
+    if (reply->kind == tcm2::Reply::Kind::value) return reply->parameter == tcm2::name_of(setting.parameter);
+    if (reply->kind == tcm2::Reply::Kind::refused)
+      note(refused_, fmt::format("{} (E{:03X})", text_of(setting), reply->error));
+    return true;
+  }
 
   std::vector<protocols::tcm2::Command> settings_;
-  std::int64_t stopped_after_ns_;  ///< words are taken to have stopped after this time without one
-  std::int64_t patience_ns_;       ///< how long the first word after `go` is waited for
-  Phase phase_ = Phase::idle;
-  std::size_t current_ = 0;
-  int attempts_ = 0;        ///< times that the current setting was sent
-  unsigned fruitless_ = 0;  ///< dialogues in a row after which no word came
-  std::string unanswered_;  ///< settings without a reply in this dialogue, for people
-  std::string refused_;     ///< settings refused in it, likewise
+  std::int64_t stopped_ns_;  ///< words are taken to have stopped after this time without one
 };
 
 }  // namespace
-
-StartUpTcm2::StartUpTcm2(const config::PortSettings& settings)
-    : settings_(settings_for(settings)), stopped_after_ns_(kTcm2Stopped_ns) {
-  if (settings.rate_Hz > 0) {
-    stopped_after_ns_ = std::max(kTcm2Stopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
-  }
-  patience_ns_ = stopped_after_ns_;
-}
-
-void StartUpTcm2::begin(std::int64_t now_ns) {
-  patience_ns_ = stopped_after_ns_;
-  fruitless_ = 0;
-  halt_at(now_ns);
-}
-
-void StartUpTcm2::halt_at(std::int64_t when_ns) {
-  phase_ = Phase::first_halt;
-  due_ns_ = when_ns;
-  current_ = 0;
-  attempts_ = 0;
-  unanswered_.clear();
-  refused_.clear();
-}
-
-void StartUpTcm2::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (phase_ == Phase::idle) return;
-  if (frame.id == tcm2::kBanner) {
-    halt_at(now_ns + kSettle_ns);
-  } else if (frame.id == tcm2::kReply) {
-    on_reply(frame, now_ns);
-  } else if (phase_ == Phase::awaiting_word || phase_ == Phase::running) {
-    phase_ = Phase::running;
-    due_ns_ = now_ns + stopped_after_ns_;
-    patience_ns_ = stopped_after_ns_;
-    fruitless_ = 0;
-  }
-}
-
-void StartUpTcm2::on_reply(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (phase_ != Phase::setting || attempts_ == 0) return;  // to one of the halts
-  const auto reply = tcm2::decode_reply(frame.bytes);
-  if (!reply) return;
-  const tcm2::Command& command = settings_[current_];
-  switch (reply->kind) {
-    case tcm2::Reply::Kind::calibration: return;
-    case tcm2::Reply::Kind::value:
-      if (reply->parameter != tcm2::name_of(command.parameter)) return;
-      break;
-    case tcm2::Reply::Kind::refused: {
-      std::string item = text_of(command) + " (E";
-      protocols::append_hex(item, reply->error, 3);
-      add_to_list(refused_, item + ')');
-      break;
-    }
-    case tcm2::Reply::Kind::accepted: break;
-  }
-  go_on_to_next(now_ns);
-}
-
-void StartUpTcm2::go_on_to_next(std::int64_t now_ns) {
-  ++current_;
-  attempts_ = 0;
-  due_ns_ = now_ns;
-}
-
-/// After one setting was repeated in vain, the following ones are not repeated. A device whose replies do not
-/// come through is then in service soon all the same.
-int StartUpTcm2::attempts_allowed() const { return unanswered_.empty() ? kAttempts : 1; }
-
-std::optional<std::vector<std::uint8_t>> StartUpTcm2::next(std::int64_t now_ns) {
-  if (now_ns < due_ns_) return std::nullopt;
-  switch (phase_) {
-    case Phase::idle: return std::nullopt;
-    case Phase::awaiting_word:
-      ++fruitless_;
-      patience_ns_ = std::max(stopped_after_ns_, std::min(2 * patience_ns_, kMostPatience_ns));
-      halt_at(now_ns);
-      break;
-    case Phase::running: halt_at(now_ns); break;
-    case Phase::first_halt:
-    case Phase::second_halt: break;
-    case Phase::setting: return next_setting(now_ns);
-  }
-  const bool first = phase_ == Phase::first_halt;
-  phase_ = first ? Phase::second_halt : Phase::setting;
-  due_ns_ = now_ns + (first ? kBetweenHalts_ns : kSettle_ns);
-  return tcm2::encode_command({Verb::halt});
-}
-
-std::optional<std::vector<std::uint8_t>> StartUpTcm2::next_setting(std::int64_t now_ns) {
-  if (current_ < settings_.size() && attempts_ >= attempts_allowed()) {
-    add_to_list(unanswered_, text_of(settings_[current_]));
-    go_on_to_next(now_ns);
-  }
-  if (current_ == settings_.size()) {
-    phase_ = Phase::awaiting_word;
-    due_ns_ = now_ns + patience_ns_;
-    return tcm2::encode_command({Verb::go});
-  }
-  ++attempts_;
-  due_ns_ = now_ns + kReplyTimeout_ns;
-  return tcm2::encode_command(settings_[current_]);
-}
-
-std::string StartUpTcm2::state() const {
-  std::string text;
-  switch (phase_) {
-    case Phase::idle: return "not begun";
-    case Phase::first_halt:
-    case Phase::second_halt: text = "halting the device"; break;
-    case Phase::setting:
-      text = current_ == settings_.size()
-                 ? "settings sent"
-                 : "setting " + text_of(settings_[current_]) + " (" + std::to_string(current_ + 1) + " of " +
-                       std::to_string(settings_.size()) + ")";
-      break;
-    case Phase::awaiting_word: text = "settings sent, waiting for words"; break;
-    case Phase::running: text = "running"; break;
-  }
-  if (fruitless_ > 0) text += "; no words came so far, attempt " + std::to_string(fruitless_ + 1);
-  if (!refused_.empty()) text += "; refused: " + refused_;
-  if (!unanswered_.empty()) text += "; no reply to: " + unanswered_;
-  return text;
-}
 
 std::unique_ptr<StartUp> start_tcm2(const config::PortSettings& settings) {
   return std::make_unique<StartUpTcm2>(settings);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +26,7 @@ constexpr int kUbxAttempts = 3;
 constexpr double kLeastInterval_ms = 25, kLongestInterval_ms = 60'000;
 constexpr double kSky_s = 5;  // between two lists of satellites, which are the longest message
 constexpr std::uint8_t kMostEpochs = 255;
+constexpr const char* kSent = "settings sent, waiting for NAV-PVT";
 
 struct WantedMessage {
   ubx::MessageCode code;
@@ -85,25 +88,9 @@ class StartUpUbx final : public StartUp {
  public:
   explicit StartUpUbx(const config::PortSettings& settings);
 
-  void begin(std::int64_t now_ns) override;
-  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
-  [[nodiscard]] std::string state() const override;
-
  private:
   using MessageCode = protocols::ubx::MessageCode;
-  using ReceiverPort = protocols::ubx::ReceiverPort;
 
-  enum class Phase : std::uint8_t {
-    idle,      ///< begin() has not been called
-    version,   ///< MON-VER is to be asked for
-    setting,   ///< CFG-VALSET for ports_[port_] is to be sent or waits for its answer
-    legacy,    ///< legacy_[step_] is to be sent or waits for its answer
-    awaiting,  ///< all is sent, NAV-PVT is waited for
-    resting,   ///< it did not come; all is repeated at due_ns_
-    running,
-  };
   /// A message of class CFG that is answered by ACK-ACK or ACK-NAK.
   struct Step {
     MessageCode code = 0;
@@ -112,31 +99,27 @@ class StartUpUbx final : public StartUp {
     bool needed = false;  ///< without it the rest is of no use
   };
 
-  void start_over(std::int64_t now_ns);
-  void enter(Phase phase, std::int64_t now_ns);
-  void on_answer(bool accepted, std::int64_t now_ns);
-  void go_on(std::int64_t now_ns);
-  void next_port(std::int64_t now_ns);
-  /// Nothing helped: all is repeated after a while.
-  void rest(std::int64_t now_ns);
-  [[nodiscard]] const Step* current() const;
-  std::optional<std::vector<std::uint8_t>> send(std::int64_t now_ns);
+  Script script() override;
+  void on_any_frame(const protocols::Frame& frame) override;
+  /// To be followed by a look at accepted_.
+  Wait set(const Step& step);
+  Wait wait_for_solution(std::int64_t patience_ns) {
+    return wait(patience_ns, [](const protocols::Frame& frame) { return ubx::code_of(frame) == ubx::kNavPvt; });
+  }
+  [[nodiscard]] std::string remark() const override { return version_.empty() ? "" : "; " + version_; }
 
   std::vector<Step> values_;  ///< one for each port of the receiver, the likely one first
   std::vector<Step> legacy_;
-  std::int64_t stopped_after_ns_;  ///< NAV-PVT is taken to have stopped after this time without one
-  Phase phase_ = Phase::idle;
-  std::size_t step_ = 0;
-  int attempts_ = 0;                            ///< times that the current step was sent
-  bool by_values_ = false;                      ///< a CFG-VALSET was accepted in this dialogue
-  bool nmea_seen_ = false;                      ///< in this dialogue
-  unsigned fruitless_ = 0;                      ///< dialogues in a row after which no NAV-PVT came
-  std::string version_, refused_, unanswered_;  ///< for people
+  std::int64_t stopped_ns_;  ///< NAV-PVT is taken to have stopped after this time without one
+  bool accepted_ = false;    ///< the setting sent last
+  bool nmea_seen_ = false;   ///< in this dialogue
+  std::string version_;      ///< for people
 };
 
 }  // namespace
 
-StartUpUbx::StartUpUbx(const config::PortSettings& settings) : stopped_after_ns_(kUbxStopped_ns) {
+StartUpUbx::StartUpUbx(const config::PortSettings& settings)
+    : stopped_ns_(stopped_after_ns(settings.rate_Hz, kUbxStopped_ns)) {
   for (const ReceiverPort port : ports_for(settings)) {
     values_.push_back({ubx::kCfgValset, "CFG-VALSET for " + std::string(name_of(port)),
                        values_for(port, settings.rate_Hz), false});
@@ -149,7 +132,6 @@ StartUpUbx::StartUpUbx(const config::PortSettings& settings) : stopped_after_ns_
     set_rate(code, std::string(ubx::name_of(code)), epochs, code == ubx::kNavPvt);
   }
   if (settings.rate_Hz > 0) {
-    stopped_after_ns_ = std::max(kUbxStopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
     legacy_.push_back(
         {ubx::kCfgRate, "CFG-RATE", ubx::encode_cfg_rate({interval_ms(settings.rate_Hz), 1}), false});
   }
@@ -160,167 +142,74 @@ StartUpUbx::StartUpUbx(const config::PortSettings& settings) : stopped_after_ns_
   }
 }
 
-void StartUpUbx::begin(std::int64_t now_ns) {
-  fruitless_ = 0;
+StartUp::Script StartUpUbx::script() {
   version_.clear();
-  start_over(now_ns);
-}
-
-void StartUpUbx::start_over(std::int64_t now_ns) {
-  by_values_ = nmea_seen_ = false;
-  refused_.clear();
-  unanswered_.clear();
-  enter(Phase::version, now_ns);
-}
-
-void StartUpUbx::enter(Phase phase, std::int64_t now_ns) {
-  phase_ = phase;
-  step_ = 0;
-  attempts_ = 0;
-  due_ns_ = now_ns;
-}
-
-const StartUpUbx::Step* StartUpUbx::current() const {
-  if (phase_ == Phase::setting && step_ < values_.size()) return &values_[step_];
-  if (phase_ == Phase::legacy && step_ < legacy_.size()) return &legacy_[step_];
-  return nullptr;
-}
-
-void StartUpUbx::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (phase_ == Phase::idle) return;
-  const auto code = ubx::code_of(frame);
-  if (!code) {
-    nmea_seen_ = nmea_seen_ || ubx::kind_of(frame) == ubx::Kind::nmea;
-    return;
-  }
-  if (*code == ubx::kNavPvt) {
-    // While the settings are under way, it is that of an earlier configuration.
-    if (phase_ != Phase::awaiting && phase_ != Phase::running && phase_ != Phase::resting) return;
-    phase_ = Phase::running;
-    due_ns_ = now_ns + stopped_after_ns_;
-    fruitless_ = 0;
-  } else if (*code == ubx::kMonVer) {
-    const auto version = ubx::decode_mon_ver(frame.bytes);
-    if (!version) return;
-    version_ = version->software;
-    for (const std::string& extension : version->extensions) {
-      if (extension.starts_with("MOD=") || extension.starts_with("FWVER=") || extension.starts_with("PROTVER"))
-        version_ += ", " + extension;
-    }
-  } else if (const auto answer = ubx::decode_acknowledgement(frame.bytes)) {
-    const Step* const step = current();
-    if (step != nullptr && attempts_ > 0 && answer->code == step->code) on_answer(answer->accepted, now_ns);
-  }
-}
-
-void StartUpUbx::on_answer(bool accepted, std::int64_t now_ns) {
-  const Step& step = *current();
-  if (!accepted) refused_ += (refused_.empty() ? "" : ", ") + step.what;
-  if (phase_ == Phase::setting) {
-    if (accepted) {
-      by_values_ = true;
-      phase_ = Phase::awaiting;
-      due_ns_ = now_ns + stopped_after_ns_;
-    } else if (by_values_) {
-      next_port(now_ns);  // it has no such port
-    } else {
-      enter(Phase::legacy, now_ns);
-    }
-    return;
-  }
-  if (!accepted && step.needed) {
-    phase_ = Phase::awaiting;
-    due_ns_ = now_ns;
-    return;
-  }
-  go_on(now_ns);
-}
-
-/// To the next step of the older configuration.
-void StartUpUbx::go_on(std::int64_t now_ns) {
-  ++step_;
-  attempts_ = 0;
-  due_ns_ = now_ns;
-  if (step_ < legacy_.size()) return;
-  phase_ = Phase::awaiting;
-  due_ns_ = now_ns + stopped_after_ns_;
-}
-
-void StartUpUbx::next_port(std::int64_t now_ns) {
-  phase_ = Phase::setting;
-  ++step_;
-  attempts_ = 0;
-  due_ns_ = now_ns;
-  if (step_ < values_.size()) return;
-  rest(now_ns);
-}
-
-void StartUpUbx::rest(std::int64_t now_ns) {
-  ++fruitless_;
-  phase_ = Phase::resting;
-  due_ns_ = now_ns + kUbxRest_ns;
-}
-
-std::optional<std::vector<std::uint8_t>> StartUpUbx::next(std::int64_t now_ns) {
-  if (now_ns < due_ns_) return std::nullopt;
-  switch (phase_) {
-    case Phase::idle: return std::nullopt;
-    case Phase::version: enter(Phase::setting, now_ns); return ubx::encode_frame(ubx::kMonVer, {});
-    case Phase::setting:
-    case Phase::legacy: return send(now_ns);
-    case Phase::awaiting:
-      if (by_values_) {
-        next_port(now_ns);
-        return phase_ == Phase::setting ? send(now_ns) : std::nullopt;
+  for (;;) {
+    nmea_seen_ = false;
+    refused_.clear();
+    unanswered_.clear();
+    enter("asking for the version");
+    co_await send(ubx::encode_frame(ubx::kMonVer, {}), 0);
+    bool by_values = false;  // a CFG-VALSET was accepted
+    bool came = false;
+    for (const Step& step : values_) {
+      if (!co_await set(step)) {
+        note(unanswered_, step.what);
+      } else if (accepted_) {
+        by_values = true;
+        enter(kSent);
+        came = co_await wait_for_solution(stopped_ns_);
+        if (came) break;
       }
-      rest(now_ns);
-      return std::nullopt;
-    case Phase::resting:
-    case Phase::running: start_over(now_ns); return next(now_ns);
-  }
-  return std::nullopt;
-}
-
-std::optional<std::vector<std::uint8_t>> StartUpUbx::send(std::int64_t now_ns) {
-  // After one step was repeated in vain, the following ones are not repeated.
-  const int allowed = unanswered_.empty() ? kUbxAttempts : 1;
-  if (attempts_ >= allowed) {
-    unanswered_ += (unanswered_.empty() ? "" : ", ") + current()->what;
-    if (phase_ == Phase::legacy && current()->needed) {
-      phase_ = Phase::awaiting;
-      due_ns_ = now_ns + stopped_after_ns_;
-    } else if (phase_ == Phase::legacy) {
-      go_on(now_ns);
-    } else if (by_values_) {
-      next_port(now_ns);
-    } else {
-      enter(Phase::legacy, now_ns);
+      if (!by_values) break;  // else the receiver has no such port, or it is not ours
     }
-    if (current() == nullptr) return std::nullopt;
+    if (!by_values) {
+      bool in_vain = false;
+      for (const Step& step : legacy_) {
+        const bool answered = co_await set(step);
+        if (!answered) note(unanswered_, step.what);
+        in_vain = answered && !accepted_ && step.needed;
+        if (step.needed && !(answered && accepted_)) break;
+      }
+      enter(kSent);
+      if (!in_vain) came = co_await wait_for_solution(stopped_ns_);
+    }
+    if (!came) {
+      ++fruitless_;
+      enter(fmt::format("{}; trying again every 10 s, {} so far",
+                        nmea_seen_ ? "running on NMEA: no NAV-PVT comes" : "no NAV-PVT comes", fruitless_));
+      if (!co_await wait_for_solution(kUbxRest_ns)) continue;
+    }
+    enter("running on NAV-PVT", true);
+    fruitless_ = 0;
+    while (co_await wait_for_solution(stopped_ns_)) continue;
   }
-  ++attempts_;
-  due_ns_ = now_ns + kUbxAnswer_ns;
-  return current()->bytes;
 }
 
-std::string StartUpUbx::state() const {
-  std::string text;
-  switch (phase_) {
-    case Phase::idle: return "not begun";
-    case Phase::version: text = "asking for the version"; break;
-    case Phase::setting:
-    case Phase::legacy: text = "setting: " + (current() != nullptr ? current()->what : std::string("done")); break;
-    case Phase::awaiting: text = "settings sent, waiting for NAV-PVT"; break;
-    case Phase::resting:
-      text = std::string(nmea_seen_ ? "running on NMEA: no NAV-PVT comes" : "no NAV-PVT comes") +
-             "; trying again every 10 s, " + std::to_string(fruitless_) + " so far";
-      break;
-    case Phase::running: text = "running on NAV-PVT"; break;
+StartUp::Wait StartUpUbx::set(const Step& step) {
+  enter("setting: " + step.what);
+  // After one step was repeated in vain, the following ones are not repeated.
+  return ask(step.bytes, unanswered_.empty() ? kUbxAttempts : 1, kUbxAnswer_ns,
+             [this, &step](const protocols::Frame& frame) {
+               const auto answer = ubx::code_of(frame) ? ubx::decode_acknowledgement(frame.bytes) : std::nullopt;
+               if (!answer || answer->code != step.code) return false;
+               accepted_ = answer->accepted;
+               if (!accepted_) note(refused_, step.what);
+               return true;
+             });
+}
+
+void StartUpUbx::on_any_frame(const protocols::Frame& frame) {
+  const auto code = ubx::code_of(frame);
+  if (!code) nmea_seen_ = nmea_seen_ || ubx::kind_of(frame) == ubx::Kind::nmea;
+  if (code != ubx::kMonVer) return;
+  const auto version = ubx::decode_mon_ver(frame.bytes);
+  if (!version) return;
+  version_ = version->software;
+  for (const std::string& extension : version->extensions) {
+    if (extension.starts_with("MOD=") || extension.starts_with("FWVER=") || extension.starts_with("PROTVER"))
+      version_ += ", " + extension;
   }
-  if (!version_.empty()) text += "; " + version_;
-  if (!refused_.empty()) text += "; refused: " + refused_;
-  if (!unanswered_.empty()) text += "; no answer to: " + unanswered_;
-  return text;
 }
 
 std::unique_ptr<StartUp> start_ubx(const config::PortSettings& settings) {

@@ -95,7 +95,7 @@ TEST(StartUpTcm2, AnUnansweredSettingIsRepeatedTwiceThenNamed) {
   dialogue.begin();
   dialogue.run_for(4 * base::kSecond_ns);
   EXPECT_EQ(dialogue.transcript(), "h h uc=d ui=d ut=c ec=e ep=e er=e em=e et=e et=e et=e sdo=t go ");
-  EXPECT_EQ(dialogue.state(), "running; no reply to: et=e");
+  EXPECT_EQ(dialogue.state(), "running; no answer to: et=e");
 }
 
 TEST(StartUpTcm2, ADeviceThatNeverRepliesIsStillStarted) {

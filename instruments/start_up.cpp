@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "instruments/start_up.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace navcal::instruments {
+
+void StartUp::begin(std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  fruitless_ = 0;
+  start_at(now_ns);
+}
+
+void StartUp::start_at(std::int64_t when_ns) {
+  script_.reset();
+  script_.reset(script().handle);
+  due_ns_ = when_ns;
+}
+
+void StartUp::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
+  if (!script_) return;
+  now_ns_ = now_ns;
+  on_any_frame(frame);
+  if (listening_ && answers_ && answers_(frame)) go_on(true);
+}
+
+std::optional<std::vector<std::uint8_t>> StartUp::next(std::int64_t now_ns) {
+  if (now_ns < due_ns_) return std::nullopt;
+  now_ns_ = now_ns;
+  while (attempts_left_ == 0) {
+    go_on(false);
+    if (now_ns < due_ns_) return std::nullopt;
+  }
+  --attempts_left_;
+  listening_ = true;
+  due_ns_ = now_ns + patience_ns_;
+  return command_;
+}
+
+void StartUp::go_on(bool answered) {
+  answered_ = answered;
+  script_.get().resume();
+}
+
+StartUp::Wait StartUp::ask(std::vector<std::uint8_t> command, int attempts, std::int64_t patience_ns,
+                           Answers answers) {
+  command_ = std::move(command);
+  attempts_left_ = attempts;
+  patience_ns_ = patience_ns;
+  answers_ = std::move(answers);
+  listening_ = attempts == 0;
+  due_ns_ = listening_ ? now_ns_ + patience_ns : now_ns_;
+  return {answered_};
+}
+
+void StartUp::enter(std::string phase, bool in_service) {
+  text_ = std::move(phase);
+  in_service_ = in_service;
+}
+
+std::string StartUp::state() const {
+  std::string text = text_ + remark();
+  if (!refused_.empty()) text += "; refused: " + refused_;
+  if (!unanswered_.empty()) text += "; no answer to: " + unanswered_;
+  return text;
+}
+
+std::int64_t stopped_after_ns(double rate_Hz, std::int64_t least_ns) {
+  return rate_Hz > 0 ? std::max(least_ns, static_cast<std::int64_t>(3e9 / rate_Hz)) : least_ns;
+}
+
+}  // namespace navcal::instruments
