@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/archive.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -34,11 +35,12 @@ void Archive::tag(std::string_view name) {
   if (found != name) ok_ = false;
 }
 
-bool Archive::tag_either(std::string_view older, std::string_view newer, bool use_newer) {
-  std::string found(use_newer ? newer : older);
+std::size_t Archive::tag_of(std::initializer_list<std::string_view> tags, std::size_t version) {
+  std::string found(tags.begin()[version]);
   (*this)(found);
-  if (found != older && found != newer) ok_ = false;
-  return found == newer;
+  const auto place = std::find(tags.begin(), tags.end(), found);
+  if (place == tags.end()) ok_ = false;
+  return static_cast<std::size_t>(place - tags.begin());
 }
 
 void Archive::operator()(std::string& text) {

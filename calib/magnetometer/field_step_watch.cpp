@@ -16,7 +16,7 @@ bool FieldStepWatch::update(double z) {
     reset();
     return false;
   }
-  return sum_ > kAlarm;
+  return is_alarmed();
 }
 
 void FieldStepWatch::reset() {
