@@ -34,6 +34,8 @@ class StartUp {
   [[nodiscard]] std::string state() const;
 
  protected:
+  /// In a script no temporary that is an aggregate with a string stands within a co_await expression: g++ 12 frees
+  /// its characters twice. A function outside the expression makes it.
   struct Script {
     struct promise_type {
       Script get_return_object() { return {std::coroutine_handle<promise_type>::from_promise(*this)}; }
