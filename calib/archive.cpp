@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/archive.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -35,12 +34,11 @@ void Archive::tag(std::string_view name) {
   if (found != name) ok_ = false;
 }
 
-std::size_t Archive::tag_of(std::initializer_list<std::string_view> tags, std::size_t version) {
-  std::string found(tags.begin()[version]);
+bool Archive::tag_either(std::string_view older, std::string_view newer, bool use_newer) {
+  std::string found(use_newer ? newer : older);
   (*this)(found);
-  const auto place = std::find(tags.begin(), tags.end(), found);
-  if (place == tags.end()) ok_ = false;
-  return static_cast<std::size_t>(place - tags.begin());
+  if (found != older && found != newer) ok_ = false;
+  return found == newer;
 }
 
 void Archive::operator()(std::string& text) {

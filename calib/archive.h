@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,13 +39,9 @@ class Archive {
   /// Saves or checks the name and version of a layout, e.g. "turn_filter 1". Restoring a different one fails.
   void tag(std::string_view name);
 
-  /// Saves the tag of `version`, or tells which version of a layout follows: its place in `tags`. Restoring any
-  /// other tag fails.
-  std::size_t tag_of(std::initializer_list<std::string_view> tags, std::size_t version);
-  /// The same of two versions: true when `newer` was saved or found.
-  bool tag_either(std::string_view older, std::string_view newer, bool use_newer) {
-    return tag_of({older, newer}, use_newer ? 1 : 0) == 1;
-  }
+  /// Saves or checks the tag of a layout that has two versions: saves `newer` if `use_newer`, else `older`.
+  /// Returns true when `newer` was saved or found. Restoring any other tag fails.
+  bool tag_either(std::string_view older, std::string_view newer, bool use_newer);
 
   template <class T>
   requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(T& value) { raw(&value, sizeof value); }

@@ -22,8 +22,6 @@ class Attitude {
   void turn(const Eigen::Vector3d& rate_rad_s, double duration_s);
   /// How it turned meanwhile is not known: the next reading of the compass is taken as it is.
   void lose_track();
-  /// Likewise for the heading alone.
-  void lose_heading() { heading_tracked_ = false; }
   /// The heading is off by this; the reading before was so long ago. Returns what the heading was turned by.
   double correct_heading(double difference_rad, double since_s);
   /// Likewise roll and pitch.

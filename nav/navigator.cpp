@@ -230,7 +230,7 @@ double Navigator::heading_std_rad() const {
   if (!attitude_.heading_known()) return kAnyHeading_rad;
   const double error_rad =
       heading_calibrated_ ? options_.heading_error_calibrated_rad : options_.heading_error_rad;
-  return std::min(std::hypot(std::hypot(error_rad, field_error_rad_), drift_rad_), kAnyHeading_rad);
+  return std::min(std::hypot(error_rad, drift_rad_), kAnyHeading_rad);
 }
 
 Estimate Navigator::estimate() const {

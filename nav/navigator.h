@@ -44,12 +44,6 @@ class Navigator {
 
   /// Headings are counted from another north from here on (the declination became known): they grow by this.
   void turn_north(double change_rad);
-  /// Standard error of the heading by changes of the vehicle's own field.
-  void set_field_error(double error_rad) {
-    // The heading followed readings of a field that is another one: the next reading replaces it.
-    if (error_rad != field_error_rad_) attitude_.lose_heading();
-    field_error_rad_ = error_rad;
-  }
 
   /// Whether anything came yet.
   [[nodiscard]] bool started() const { return time_ns_.has_value(); }
@@ -117,7 +111,6 @@ class Navigator {
   std::optional<std::int64_t> over_bottom_ns_;        ///< end of the last step by the velocity over the bottom
   std::optional<std::int64_t> heading_ns_, tilt_ns_;  ///< of the last reading that had one
   bool heading_calibrated_ = false;
-  double field_error_rad_ = 0;
   double drift_rad_ = 0;  ///< of the heading since then, one standard deviation
   std::optional<Outage> outage_;
   std::uint64_t left_out_ = 0;

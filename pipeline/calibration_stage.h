@@ -33,7 +33,6 @@ class CalibrationStage {
 
   [[nodiscard]] calib::Report report() const { return suite_.report(); }
   [[nodiscard]] const calib::InForce& in_force() const { return suite_.in_force(); }
-  [[nodiscard]] double field_error_rad() const { return suite_.field_error_rad(); }
   /// A change of the kind with which a log begins.
   [[nodiscard]] CalibrationChange beginning(std::int64_t now_ns);
   /// Everything, to the last bit, from a state of beginning(). False when it is none; nothing has changed then.

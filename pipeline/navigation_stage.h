@@ -45,8 +45,6 @@ class NavigationStage {
   void use(const RolePorts& ports) { ports_ = ports; }
   /// From here on.
   void set_declination(double declination_rad);
-  /// Standard error of the calibrated heading by changes of the vehicle's own field.
-  void set_field_error(double error_rad) { calibrated_.set_field_error(error_rad); }
 
  private:
   void feed(nav::Navigator& navigator, const instruments::Sample& sample,

@@ -55,7 +55,6 @@ void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, 
     battery_->take(corrected, is_motor ? navigation(mapping) : std::nullopt, mapping, sink);
   }
   if (calibration_) calibration_->learn(placed ? *placed : original, sink);
-  if (calibration_ && navigation_) navigation_->set_field_error(calibration_->field_error_rad());
 }
 
 void Stages::take_sources(const instruments::Sample& sample, Sink& sink) {

@@ -91,7 +91,7 @@ void print_magnetometer_real(const TableOptions& /*options*/) {
   Magnetometer live{Magnetometer::Parameters{}};
   std::uint32_t steps = 0;
   for (const auto& r : magnet) {
-    live.update({r.field_body_uT, r.roll_rad, r.pitch_rad});
+    live.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
     if (live.field_steps() == steps) continue;
     steps = live.field_steps();
     const auto before = live.last_step()->found_sample - live.last_step()->onset_sample;

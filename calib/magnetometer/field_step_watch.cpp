@@ -16,7 +16,7 @@ bool FieldStepWatch::update(double z) {
     reset();
     return false;
   }
-  return is_alarmed();
+  return sum_ > kAlarm;
 }
 
 void FieldStepWatch::reset() {

@@ -19,7 +19,6 @@ class FieldStepWatch {
   bool update(double z);
   /// Readings since the sum last was zero, with the newest.
   [[nodiscard]] std::uint64_t since_onset() const { return since_onset_; }
-  [[nodiscard]] bool is_alarmed() const { return sum_ > kAlarm; }
   void reset();
 
   /// True when a reading is too far off to be used.

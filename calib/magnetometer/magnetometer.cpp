@@ -32,6 +32,26 @@ void Magnetometer::Estimators::archive(Archive& archive) { archive(ellipse, gyro
 
 Magnetometer::Magnetometer(const Parameters& parameters) : parameters_(parameters), now_(parameters) {}
 
+void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) {
+  Reading reading;
+  reading.field_body_uT = field_body_uT;
+  reading.roll_rad = roll_rad;
+  reading.pitch_rad = pitch_rad;
+  update(reading);
+}
+
+void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad,
+                          const TurnStep& turn) {
+  Reading reading;
+  reading.field_body_uT = field_body_uT;
+  reading.roll_rad = roll_rad;
+  reading.pitch_rad = pitch_rad;
+  reading.has_turn = true;
+  reading.turn = turn;
+  reading.time_s = turn.time_s;
+  update(reading);
+}
+
 PredictedReading Magnetometer::predicted_of(const Reading& reading) const {
   // Readings without times are given the interval of a compass at its usual rate.
   constexpr double kUsualInterval_s = 0.1, kLongestInterval_s = 2;

@@ -45,13 +45,16 @@ class Magnetometer {
 
   explicit Magnetometer(const Parameters& parameters);
 
+  void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
+  /// Takes a reading and the turn since the reading before, as the gyro measured it.
+  void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad, const TurnStep& turn);
   /// One reading. Its time is used to date steps of the field. Roll or pitch not a number: the tilt is not
   /// known.
   struct Reading {
     Eigen::Vector3d field_body_uT = Eigen::Vector3d::Zero();
     double roll_rad = 0, pitch_rad = 0;
     bool has_turn = false;
-    TurnStep turn = {};
+    TurnStep turn;
     double time_s = 0;
     std::int64_t utc_ns = 0;  ///< 0: not known
     void archive(Archive& archive);
@@ -76,8 +79,6 @@ class Magnetometer {
   [[nodiscard]] const EllipseGyro& gyro_aided() const { return now_.gyro; }
   [[nodiscard]] const EllipsoidEstimator& ellipsoid() const { return now_.ellipsoid; }
 
-  /// True while the latest readings may be of another field.
-  [[nodiscard]] bool is_in_doubt() const { return watch_.is_alarmed(); }
   [[nodiscard]] std::uint32_t field_steps() const { return field_steps_; }
   [[nodiscard]] std::optional<FieldStep> last_step() const;
   /// Steps, and the segments between them.

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "calib/magnetometer/field_cells.h"
-
 namespace navcal::calib {
 namespace {
 
@@ -27,6 +25,7 @@ constexpr std::uint32_t kReversedUntilRestart = 50;
 constexpr double kMaxHeading_rad = 2 * std::numbers::pi + 0.01;
 constexpr double kMaxPitch_rad = std::numbers::pi / 2 + 0.01;
 constexpr double kMaxRoll_rad = std::numbers::pi + 0.01;
+constexpr double kMaxField_uT = 1000;
 constexpr double kMinField_uT = 0.001;
 constexpr double kMaxRate_rad_s = 35;
 constexpr double kMaxSpecificForce_m_s2 = 200;
@@ -165,7 +164,7 @@ bool Gate::clean(CompassReading& reading) {
   if (reading.pitch_rad) check(reading.pitch_rad, fitness(*reading.pitch_rad, kMaxPitch_rad));
   if (reading.roll_rad) check(reading.roll_rad, fitness(*reading.roll_rad, kMaxRoll_rad));
   if (auto& field = reading.field_body_uT) {
-    Fitness fit = fitness_of_all(*field, kHighestField_uT);
+    Fitness fit = fitness_of_all(*field, kMaxField_uT);
     if (fit == Fitness::good && field->norm() < kMinField_uT) fit = Fitness::absurd;
     check(field, fit);
   }

@@ -46,15 +46,6 @@ bool InForce::roll_back(Calibrator calibrator) {
   return true;
 }
 
-void InForce::move_offset(const Eigen::Vector3d& by_uT) {
-  const auto move = [&](Correction& correction) {
-    if (correction.magnetometer) correction.magnetometer->offset_uT += by_uT;
-  };
-  move(correction_);
-  for (Change& change : history_) move(change.before);
-  if (correction_.magnetometer) rename();
-}
-
 void InForce::rename() {
   ++name_.number;
   Archive content;

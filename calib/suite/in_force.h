@@ -38,9 +38,6 @@ class InForce {
   /// Gives one calibrator the value that it had before its last change. False when there is none.
   bool roll_back(Calibrator calibrator);
 
-  /// The hard iron is another one: moves the calibration of the field, also where roll_back() would find it.
-  void move_offset(const Eigen::Vector3d& by_uT);
-
   void archive(Archive& archive);
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/suite/suite.h"
 
-#include <cmath>
 #include <utility>
 
 #include "calib/coverage.h"
@@ -11,14 +10,6 @@ namespace {
 
 /// Readings of the compass from one judgement to the next: each of ten calibrators is judged every 30.
 constexpr std::uint64_t kJudgeEvery = 3;
-/// Readings that tell whether a compass gives its field.
-constexpr std::uint64_t kEnough = 50;
-/// A step that is known no better than this across the level hull ends the calibration of the field: some three
-/// degrees of heading. The vertical part counts little: a hull that stays level does not tell it.
-constexpr double kKnownStep_uT = 1;
-bool is_known(const auto& step) { return (step.std_uT.template head<2>().array() < kKnownStep_uT).all(); }
-/// Level part of the Earth's field where it is not known: at most places it is more.
-constexpr double kLeastLevelField_uT = 15;
 
 }  // namespace
 
@@ -55,7 +46,6 @@ void Suite::finish() {
   estimators_.finish();
   take_turned();
   estimators_.settle();
-  follow_field();
 }
 
 void Suite::process(const Reading& reading) {
@@ -77,68 +67,7 @@ void Suite::take_turned() {
   while (const auto turned = estimators_.next(in_force_.correction())) judge(*turned);
 }
 
-Suite::FieldMove Suite::field_move() const {
-  FieldMove move, before;
-  const FieldStep* previous = nullptr;
-  for (const FieldStep& step : estimators_.magnetometer().history().steps()) {
-    if (step.onset_sample <= followed_.learned) continue;
-    const bool is_sure = step.returned && previous != nullptr && !(is_known(*previous) && is_known(step));
-    const FieldMove after = is_sure ? before
-                                    : FieldMove{move.size_uT + step.size_uT,
-                                                (move.std_uT.cwiseAbs2() + step.std_uT.cwiseAbs2()).cwiseSqrt()};
-    before = std::exchange(move, after);
-    previous = &step;
-  }
-  return move;
-}
-
-void Suite::follow_field() {
-  const auto last = estimators_.magnetometer().last_step();
-  const bool begins = last && last->onset_sample > followed_.step;
-  if (begins) {
-    followed_.step = last->onset_sample;
-    begin_field();
-  }
-  const FieldMove move = field_move();
-  const bool moves = move.size_uT != followed_.moved_uT;
-  if (moves) in_force_.move_offset(move.size_uT - std::exchange(followed_.moved_uT, move.size_uT));
-  const bool was_in_force = in_force_.correction().magnetometer.has_value();
-  const bool leaves = was_in_force && begins && !is_known(move), returns = followed_.waits && is_known(move);
-  if (leaves) adopt(Calibrator::magnetometer, {});
-  if (returns && !was_in_force && in_force_.roll_back(Calibrator::magnetometer))
-    on_change(Calibrator::magnetometer);
-  followed_.waits = leaves || (followed_.waits && !returns);
-  flags_[index_of(Calibrator::magnetometer)].adopted |= was_in_force ? moves || leaves : returns;
-}
-
-void Suite::begin_field() {
-  const bool moves = in_force_.correction().magnetometer.has_value();
-  for (const Calibrator calibrator : calibrators()) {
-    const CalibratorRow& row = row_of(calibrator);
-    if (row.corrects != Corrects::heading) continue;
-    held_out_.forget(calibrator);
-    if (!row.field_alone && !(moves && row.applies_to == AppliesTo::field)) {
-      if (row.of_compass) estimators_.unit(calibrator).start();
-      if (has(in_force_.correction(), calibrator)) {
-        adopt(calibrator, {});
-        flags_[index_of(calibrator)].adopted = true;
-      }
-    }
-    refresh_accepted(calibrator);
-  }
-  held_out_.on_change();
-  field_.forget();
-}
-
-double Suite::field_error_rad() const {
-  const FieldMove move = field_move();
-  const Eigen::Vector3d& off_uT = in_force_.correction().magnetometer ? move.std_uT : move.size_uT;
-  const auto& known = options_.local_field.known;
-  return off_uT.head<2>().norm() / (known ? known->magnitude_uT * std::cos(known->dip_rad) : kLeastLevelField_uT);
-}
-
 void Suite::judge(const TurnedReading& turned) {
-  follow_field();
   if (readings_ % kJudgeEvery == 0) refresh_accepted(judged_[readings_ / kJudgeEvery % judged_.size()]);
   ++readings_;
   if (field_.update(turned.reading, in_force_.correction(), accepted_)) adopt_what_is_better();
@@ -161,7 +90,6 @@ const Comparison& Suite::comparison(Calibrator calibrator) const {
 }
 
 bool Suite::is_better(Calibrator calibrator) const {
-  if (row_of(calibrator).corrects == Corrects::heading && estimators_.magnetometer().is_in_doubt()) return false;
   const Comparison& found = comparison(calibrator);
   if (found.better_by(options_.margin)) return true;
   // The field's own comparison decides where no gyro serves as reference.
@@ -181,14 +109,10 @@ void Suite::adopt_what_is_better() {
 
 void Suite::adopt(Calibrator calibrator, const Correction& estimates) {
   in_force_.adopt(calibrator, estimates);
-  const bool is_heading = row_of(calibrator).field_alone || (row_of(calibrator).corrects == Corrects::heading &&
-                                                             !in_force_.correction().magnetometer);
-  if (is_heading && has(estimates, calibrator)) followed_ = {.step = followed_.step, .learned = followed_.step};
   on_change(calibrator);
 }
 
 void Suite::on_change(Calibrator calibrator) {
-  if (row_of(calibrator).corrects == Corrects::field) followed_ = {};
   held_out_.on_change();
   field_.on_change();
   estimators_.on_in_force(calibrator, in_force_.correction());
@@ -232,7 +156,6 @@ std::string Suite::accept(Calibrator calibrator, bool force) {
 std::string Suite::roll_back(Calibrator calibrator) {
   if (!in_force_.roll_back(calibrator)) return "nothing to go back to";
   flags_[index_of(calibrator)].held = true;
-  if (row_of(calibrator).field_alone) followed_.waits = false;
   on_change(calibrator);
   return {};
 }
@@ -241,10 +164,7 @@ std::string Suite::start(Calibrator calibrator) {
   if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
   estimators_.unit(calibrator).start();
   held_out_.forget(calibrator);
-  if (row_of(calibrator).field_alone) {
-    field_.forget();
-    followed_ = {};
-  }
+  if (row_of(calibrator).field_alone) field_.forget();
   flags_[index_of(calibrator)].held = false;
   if (row_of(calibrator).clears_rose) rose_ = {};
   refresh_accepted(calibrator);
@@ -273,6 +193,7 @@ std::string Suite::silent_instrument(Calibrator calibrator) const {
 }
 
 bool Suite::gives_no_field() const {
+  constexpr std::uint64_t kEnough = 50;  // readings
   return gate_.counts().taken[static_cast<std::size_t>(Stream::compass)] >= kEnough;
 }
 
@@ -282,14 +203,8 @@ void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
     judgement.reason = "no reading of " + silent + " so far";
     judgement.manoeuvre.clear();
   } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 && gives_no_field()) {
-    const auto absurd = gate_.counts().left_out[0][static_cast<std::size_t>(Rejection::absurd)];
-    judgement.reason =
-        absurd < kEnough
-            ? "the compass gives headings without the field that it measures"
-            : "the compass's field is absurd: above 500 uT it is not the Earth's with the iron of a vehicle";
+    judgement.reason = "the compass gives headings without the field that it measures";
     judgement.manoeuvre.clear();
-  } else if (row_of(report.calibrator).field_alone && followed_.waits) {
-    judgement.reason = "the field stepped by what is not known to 1 uT yet; " + judgement.reason;
   }
   const bool by_field = row_of(report.calibrator).field_alone && !comparison(report.calibrator).is_judged();
   const Comparison& held_out = by_field ? field_.comparison() : comparison(report.calibrator);
@@ -333,9 +248,7 @@ Report Suite::report() const {
 
 void Suite::archive(Archive& archive) {
   const auto all = calibrators();
-  // The first two versions are older than what follows the steps of the field.
-  const std::size_t version =
-      archive.tag_of({"suite 3", "suite 4", "suite 5", "suite 6"}, all.size() > kNamedCalibrators ? 3 : 2);
+  const bool with_added = archive.tag_either("suite 3", "suite 4", all.size() > kNamedCalibrators);
   archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_);
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].held);
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].adopted);
@@ -348,10 +261,7 @@ void Suite::archive(Archive& archive) {
       flags_[index_of(calibrator)] = {};
     }
   }
-  if (version % 2 == 1) archive_added(archive);
-  if (version >= 2) return archive(followed_);
-  const auto step = estimators_.magnetometer().last_step().value_or(FieldStep{}).onset_sample;
-  followed_ = {.step = step, .learned = step};
+  if (with_added) archive_added(archive);
 }
 
 void Suite::archive_added(Archive& archive) {

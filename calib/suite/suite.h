@@ -42,9 +42,6 @@ class Suite {
   /// A step of the field that was found since the last call.
   std::optional<FieldStep> take_field_step();
 
-  /// Standard error of the heading by steps of the field that nothing in force contains, or knows no better.
-  [[nodiscard]] double field_error_rad() const;
-
   /// The Earth's field here became known, or is another one: the vehicle has moved.
   void set_local_field(const LocalField& field);
 
@@ -58,18 +55,6 @@ class Suite {
   void archive(Archive& archive);
 
  private:
-  /// Difference of the hard iron of two times.
-  struct FieldMove {
-    Eigen::Vector3d size_uT = Eigen::Vector3d::Zero(), std_uT = Eigen::Vector3d::Zero();
-  };
-  /// Onsets of steps of the field, as readings of the magnetometer's calibrator.
-  struct FollowedField {
-    std::uint64_t step = 0;                              ///< the last that was followed
-    std::uint64_t learned = 0;                           ///< the last that the heading in force contains
-    Eigen::Vector3d moved_uT = Eigen::Vector3d::Zero();  ///< of that calibration, by the steps since
-    bool waits = false;                                  ///< it left force until they are known better
-    void archive(Archive& archive) { archive(step, learned, moved_uT, waits); }
-  };
   struct Flags {
     bool held = false;     ///< rolled back: only the operator brings it back
     bool adopted = false;  ///< not told yet
@@ -90,13 +75,6 @@ class Suite {
   /// contradicts it.
   [[nodiscard]] bool is_better(Calibrator calibrator) const;
   void adopt_what_is_better();
-  /// The steps of the field since the calibration of it was learned, together.
-  [[nodiscard]] FieldMove field_move() const;
-  /// Moves the calibration of the field by its steps, and by what is found out about them afterwards. While their
-  /// size is not known it is not in force.
-  void follow_field();
-  /// Ends what was learned in the field before, but for what can be moved.
-  void begin_field();
   /// Verdict, outcome and held-out figures of one calibrator.
   void judge(CalibratorReport& report, const Correction& in_force) const;
   void adopt(Calibrator calibrator, const Correction& estimates);
@@ -117,7 +95,6 @@ class Suite {
   std::vector<Calibrator> judged_;
   HeadingHistogram rose_{};
   std::uint32_t told_steps_ = 0;
-  FollowedField followed_;
 };
 
 }  // namespace navcal::calib

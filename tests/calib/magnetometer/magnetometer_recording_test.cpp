@@ -68,7 +68,7 @@ TEST(MagnetometerRecording, GliderIsAcceptedReadingByReading) {
   const auto readings = recording("sg171.cap");
   if (readings.empty()) GTEST_SKIP() << "../shared is missing";
   Magnetometer magnetometer{Magnetometer::Parameters{}};
-  for (const auto& r : readings) magnetometer.update({r.field_body_uT, r.roll_rad, r.pitch_rad});
+  for (const auto& r : readings) magnetometer.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
   EXPECT_EQ(magnetometer.field_steps(), 0u);
   EXPECT_EQ(magnetometer.method(), Magnetometer::Method::ellipsoid) << magnetometer.judgement().reason;
 }

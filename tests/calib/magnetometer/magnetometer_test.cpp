@@ -24,7 +24,7 @@ std::vector<FieldReading> turning(int readings, int first, const Eigen::Vector3d
 }
 
 void feed(Magnetometer& magnetometer, const std::vector<FieldReading>& readings) {
-  for (const auto& r : readings) magnetometer.update({r.field_body_uT, r.roll_rad, r.pitch_rad});
+  for (const auto& r : readings) magnetometer.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
 }
 
 std::string saved(Magnetometer& magnetometer) {
@@ -112,7 +112,7 @@ TEST(Magnetometer, AMagnetThatComesWhileTheHullRestsIsFound) {
         turn.begins_segment = count == 1;
         turn.duration_s = 0.1;
         turn.measured_angle_rad = 0.001;  // by the gyro's bias
-        magnetometer.update({r.field_body_uT, r.roll_rad, r.pitch_rad, true, turn, turn.time_s});
+        magnetometer.update(r.field_body_uT, r.roll_rad, r.pitch_rad, turn);
       }
     };
     rest(300, kBefore);
@@ -134,9 +134,9 @@ TEST(Magnetometer, OutliersAreLeftOutAndAreNoStep) {
   Magnetometer clean{Magnetometer::Parameters{}}, dirty{Magnetometer::Parameters{}};
   const auto readings = turning(1000, 0, kBefore, random);
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    clean.update({readings[i].field_body_uT, readings[i].roll_rad, readings[i].pitch_rad});
-    dirty.update({readings[i].field_body_uT, readings[i].roll_rad, readings[i].pitch_rad});
-    if (i > 200 && i % 25 == 0) dirty.update({{anywhere(random), anywhere(random), anywhere(random)}, 0, 0});
+    clean.update(readings[i].field_body_uT, readings[i].roll_rad, readings[i].pitch_rad);
+    dirty.update(readings[i].field_body_uT, readings[i].roll_rad, readings[i].pitch_rad);
+    if (i > 200 && i % 25 == 0) dirty.update({anywhere(random), anywhere(random), anywhere(random)}, 0, 0);
   }
   EXPECT_EQ(dirty.field_steps(), 0u);
   EXPECT_GE(dirty.left_out(), 25u);
@@ -225,10 +225,10 @@ TEST(Magnetometer, BadReadingsAreCountedAndChangeNoEstimate) {
   Magnetometer clean{Magnetometer::Parameters{}}, dirty{Magnetometer::Parameters{}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& r : turning(300, 0, kBefore, random)) {
-    clean.update({r.field_body_uT, r.roll_rad, r.pitch_rad});
-    dirty.update({r.field_body_uT, r.roll_rad, r.pitch_rad});
-    dirty.update({{nan, 0, 0}, 0, 0});
-    dirty.update({{1e9, 0, 0}, 0, 0});
+    clean.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
+    dirty.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
+    dirty.update({nan, 0, 0}, 0, 0);
+    dirty.update({1e9, 0, 0}, 0, 0);
   }
   EXPECT_EQ(dirty.left_out(), 600u + clean.left_out());
   EXPECT_EQ(clean.estimate()->correction.offset_uT, dirty.estimate()->correction.offset_uT);

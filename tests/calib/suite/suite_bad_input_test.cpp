@@ -144,22 +144,5 @@ std::string case_name(const testing::TestParamInfo<Case>& tested) {
 
 INSTANTIATE_TEST_SUITE_P(Suite, BadInput, testing::ValuesIn(cases()), case_name);
 
-/// 501 uT is below the limit of a sensor's range, and above what a vehicle's iron adds to the Earth's field.
-TEST(BadField, AFieldTooLargeIsCountedAndNamed) {
-  Suite suite(thesis_options(), {true, false, false, false});
-  for (int i = 0; i < 100; ++i) {
-    CompassReading reading;
-    reading.time_s = 0.1 * i;
-    reading.roll_rad = reading.pitch_rad = 0.001 * i;
-    reading.field_body_uT = Eigen::Vector3d(20, 0.1 * i, 501);
-    suite.put(reading);
-  }
-  suite.finish();
-  const Report report = suite.report();
-  EXPECT_EQ(report.gate.left_out[0][static_cast<std::size_t>(Rejection::absurd)], 100U);
-  const std::string& reason = report.find(Calibrator::magnetometer)->judgement.reason;
-  EXPECT_NE(reason.find("above 500 uT"), std::string::npos) << reason;
-}
-
 }  // namespace
 }  // namespace navcal::calib
