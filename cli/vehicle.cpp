@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <system_error>
+#include <vector>
 
+#include "analysis/output.h"
+#include "analysis/progress.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "config/layout/layout_file.h"
+#include "config/load.h"
 #include "config/vehicle_file.h"
+#include "identify/answer/prediction.h"
+#include "record/recording.h"
 #include "report/vehicle_check.h"
+#include "report/vehicle_prediction.h"
 #include "sim/layout/layout_of.h"
 
 namespace navcal::cli {
@@ -18,6 +29,12 @@ namespace {
 struct VehicleCheckArguments {
   std::string layout;
   bool json = false;
+};
+
+struct VehiclePredictArguments {
+  std::string layout, json, config;
+  std::vector<std::string> files, fit;
+  double every_s = 5;
 };
 
 struct VehicleConvertArguments {
@@ -39,6 +56,48 @@ void check_layout(const VehicleCheckArguments& arguments) {
   if (!found.cannot_simulate.empty())
     throw analysis::Failure(analysis::Exit::failed,
                             fmt::format("{}: cannot be simulated: {}", arguments.layout, found.cannot_simulate));
+}
+
+identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
+  identify::PredictionRequest request;
+  request.layout = config::load_layout(arguments.layout);
+  request.every_s = arguments.every_s;
+  std::optional<config::Settings> settings;
+  if (!arguments.config.empty()) settings = config::load(arguments.config);
+  analysis::Progress progress("vehicle predict", analysis::Progress::Answer::at_the_end);
+  const auto load = [&](const std::vector<std::string>& files, std::vector<identify::RecordedMotion>& out) {
+    for (const std::string& file : files)
+      out.push_back(identify::load_motion(
+          file, [&](double done) { progress.show("reading", done); }, settings));
+  };
+  load(arguments.files, request.recordings);
+  load(arguments.fit, request.fit);
+  return identify::predict(request, [&](double done) { progress.show("predicting", done); });
+}
+
+void predict_vehicle(const VehiclePredictArguments& arguments) {
+  const bool json_only = arguments.json == "-";
+  std::vector<std::filesystem::path> inputs(arguments.files.begin(), arguments.files.end());
+  inputs.insert(inputs.end(), arguments.fit.begin(), arguments.fit.end());
+  inputs.insert(inputs.end(), {arguments.layout, arguments.config});
+  expect_no_overwriting(inputs, {arguments.json});
+  if (!arguments.json.empty() && !json_only) expect_folder_of(arguments.json);
+  try {
+    const identify::Prediction found = prediction_of(arguments);
+    if (!arguments.json.empty() && !json_only)
+      write_result(arguments.json, report::vehicle_prediction_json(found));
+    analysis::Output output(STDOUT_FILENO, "standard output");
+    output.append(json_only ? report::vehicle_prediction_json(found) : report::vehicle_prediction_text(found));
+    output.flush();
+  } catch (const record::BadRecording& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::invalid_argument& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
 }
 
 void convert_vehicle(const VehicleConvertArguments& arguments) {
@@ -74,6 +133,32 @@ void add_vehicle_check(CLI::App& vehicle) {
   command->callback([arguments] { check_layout(*arguments); });
 }
 
+void add_vehicle_predict(CLI::App& vehicle) {
+  const auto arguments = std::make_shared<VehiclePredictArguments>();
+  auto* const command =
+      vehicle.add_subcommand("predict", "How well a layout predicts recorded motion, beside the simplest methods");
+  command->add_option("LAYOUT", arguments->layout, "Layout of the vehicle (.toml)")->required();
+  command->add_option("FILE", arguments->files, "Recordings with commands: captures or logs")->required();
+  command->add_option("--fit", arguments->fit, "Recording to which the regressions are fitted; repeatable")
+      ->option_text("TRAIN")
+      ->allow_extra_args(false);
+  command->add_option("--every", arguments->every_s, "Time between starts, s")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  command
+      ->add_option("--json", arguments->json, "The answer as one JSON object; - is standard output, without text")
+      ->option_text("FILE|-");
+  command->add_option("--config", arguments->config, "Configuration of all recordings, instead of their own")
+      ->option_text("FILE.toml");
+  command->footer(
+      "From the measured state every few seconds, the recorded commands move the layout's vehicle for 1, 10 and "
+      "60 s.\n"
+      "Beside its errors stand those of standing still, of holding the velocity, and of a linear and a quadratic\n"
+      "regression. A layout that is worse than these is no use. docs/vehicles.md says how to read the table.\n\n"
+      "Example: navcal vehicle predict vehicle.toml zigzag.mcap --fit turning.mcap");
+  command->callback([arguments] { predict_vehicle(*arguments); });
+}
+
 void add_vehicle_convert(CLI::App& vehicle) {
   const auto arguments = std::make_shared<VehicleConvertArguments>();
   auto* const command =
@@ -97,6 +182,7 @@ void add_vehicle(CLI::App& app) {
       "A layout states masses, damping and any number of thrusters, surfaces, ballasts and moving masses.\n\n"
       "Example: navcal vehicle check remus-100.toml");
   add_vehicle_check(*vehicle);
+  add_vehicle_predict(*vehicle);
   add_vehicle_convert(*vehicle);
 }
 

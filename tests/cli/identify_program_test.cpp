@@ -58,6 +58,24 @@ TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {
   EXPECT_NE(said("out").find("held-out recordings"), std::string::npos) << said("out");
 }
 
+TEST_F(IdentifyProgram, ALayoutIsJudgedByItsPredictions) {
+  write_prior();
+  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 5 -o a.cap"), 0) << said("err");
+  ASSERT_EQ(run_navcal("vehicle predict " NAVCAL_SOURCE_DIR
+                       "/share/vehicles/reference.toml a.cap --fit a.cap --json p.json"),
+            0)
+      << said("err");
+  EXPECT_NE(said("out").find("quadratic"), std::string::npos) << said("out");
+  const auto json = nlohmann::json::parse(said("p.json"));
+  ASSERT_EQ(json.at("horizons").size(), 3U);
+  const auto& after_10_s = json.at("horizons")[1];
+  EXPECT_EQ(after_10_s.at("s").get<double>(), 10);
+  EXPECT_GT(after_10_s.at("starts").get<int>(), 0);
+  EXPECT_LT(after_10_s.at("heading_deg").at("layout").get<double>(),
+            after_10_s.at("heading_deg").at("hold").get<double>());
+  EXPECT_EQ(run_navcal("vehicle predict prior.toml a.cap --json a.cap"), 2);
+}
+
 TEST_F(IdentifyProgram, NeverOverwritesAnInput) {
   write_prior();
   const std::string before = said("prior.toml");

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/answer/prediction.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/angles.h"
+#include "identify/data/actuator_inputs.h"
+#include "identify/replay/replayed_motion.h"
+
+namespace navcal::identify {
+namespace {
+
+constexpr double kGrid_s = 0.1, kModelStep_s = 0.02;
+constexpr double kGap_s = 2;               ///< between readings, which are interpolated within
+constexpr std::ptrdiff_t kDifference = 3;  ///< steps of the grid before and behind, for a derivative
+constexpr std::array kAfter_s{1.0, 10.0, 60.0};
+constexpr double kSteered = 3;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Readings on the grid, NaN where none are near; angles without jumps.
+std::vector<double> on_grid(const RecordedMotion& motion, Channel channel, std::size_t rows) {
+  std::vector<double> out(rows, kNone);
+  const auto& readings = motion[channel];
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double time_s = kGrid_s * static_cast<double>(k);
+    while (next < readings.size() && readings[next].time_s < time_s) ++next;
+    if (next == 0 || next == readings.size()) continue;
+    const Reading &a = readings[next - 1], &b = readings[next];
+    if (b.time_s - a.time_s > kGap_s) continue;
+    const double change = describe(channel).is_angle ? base::wrapped(b.value - a.value) : b.value - a.value;
+    out[k] = a.value + (time_s - a.time_s) / (b.time_s - a.time_s) * change;
+  }
+  return out;
+}
+
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& euler_rad) {
+  return (Eigen::AngleAxisd(euler_rad.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(euler_rad.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(euler_rad.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+/// The body a step later at this velocity, whose derivative is given.
+sim::Body moved(const sim::Body& body, const sim::Vector6& acceleration, double step_s) {
+  sim::Body next = body;
+  next.velocity += step_s * acceleration;
+  const sim::Vector6 mean = (body.velocity + next.velocity) / 2;
+  const double roll = body.euler_rad.x(), tilt = std::tan(body.euler_rad.y());
+  const double across = std::sin(roll) * mean[4] + std::cos(roll) * mean[5];
+  next.position_m += step_s * rotation_of(body.euler_rad) * mean.head<3>();
+  next.euler_rad +=
+      step_s * Eigen::Vector3d(mean[3] + tilt * across, std::cos(roll) * mean[4] - std::sin(roll) * mean[5],
+                               across / std::cos(body.euler_rad.y()));
+  return next;
+}
+
+/// What one recording measured of the motion on the grid, and where its actuators were.
+struct Track {
+  std::vector<sim::Body> bodies;  ///< NaN where it is not measured
+  ActuatorTrajectory actuators;
+  bool has_depth = false, by_fixes = false;
+
+  Track(const config::Layout& layout, const RecordedMotion& motion);
+  [[nodiscard]] bool is_measured(std::size_t k) const {
+    return k < bodies.size() && bodies[k].position_m.allFinite() && bodies[k].velocity.allFinite() &&
+           bodies[k].euler_rad.allFinite();
+  }
+  [[nodiscard]] sim::Vector6 acceleration(std::size_t k) const {
+    return (bodies[k + kDifference].velocity - bodies[k - kDifference].velocity) / (2 * kDifference * kGrid_s);
+  }
+};
+
+Track::Track(const config::Layout& layout, const RecordedMotion& motion) {
+  const ActuatorInputs inputs(layout, motion);
+  if (!inputs.missing().empty()) throw std::invalid_argument(motion.name + ": " + inputs.missing().front());
+  if (!motion.has(Channel::heading)) throw std::invalid_argument(motion.name + ": no heading is recorded");
+  actuators = inputs.trajectory(layout);
+  const auto rows = static_cast<std::size_t>(motion.duration_s / kGrid_s) + 1;
+  const auto grid = [&](Channel channel) { return on_grid(motion, channel, rows); };
+  const auto or_zero = [&](Channel channel) {
+    return motion.has(channel) ? grid(channel) : std::vector<double>(rows, 0.0);
+  };
+  const auto roll = or_zero(Channel::roll), pitch = or_zero(Channel::pitch), heading = grid(Channel::heading);
+  const Channel depths = motion.has(Channel::gauge_depth) ? Channel::gauge_depth : Channel::depth;
+  has_depth = motion.has(depths);
+  const auto depth = or_zero(depths);
+  by_fixes = motion.has(Channel::north) && motion.has(Channel::east);
+  std::vector<double> north, east;
+  if (by_fixes) {
+    north = grid(Channel::north);
+    east = grid(Channel::east);
+  }
+  const Channel doppler = motion.has(Channel::water_x) ? Channel::water_x : Channel::bottom_x;
+  const bool has_doppler = motion.has(doppler), has_course = motion.has(Channel::north_velocity);
+  if (!has_doppler && !has_course && !by_fixes)
+    throw std::invalid_argument(motion.name + ": no Doppler log and no fixes: nothing measures the velocity");
+  std::array<std::vector<double>, 3> speeds, rates;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = [&](Channel first) { return static_cast<Channel>(static_cast<std::size_t>(first) + i); };
+    if (has_doppler) {
+      speeds[i] = or_zero(axis(doppler));
+    } else if (has_course) {
+      speeds[i] = i < 2 ? grid(axis(Channel::north_velocity)) : std::vector<double>(rows, 0.0);
+    }
+    if (motion.has(axis(Channel::rate_x))) rates[i] = grid(axis(Channel::rate_x));
+  }
+  const auto slope = [&](const std::vector<double>& of, std::size_t k, bool is_angle = false) {
+    const std::size_t d = kDifference;
+    if (k < d || k + d >= rows) return kNone;
+    const double change = of[k + d] - of[k - d];
+    return (is_angle ? base::wrapped(change) : change) / (2 * kDifference * kGrid_s);
+  };
+  Eigen::Vector2d reckoned = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < rows; ++k) {
+    sim::Body body;
+    body.euler_rad = {roll[k], pitch[k], heading[k]};
+    const Eigen::Matrix3d world = rotation_of(body.euler_rad);
+    Eigen::Vector3d v;
+    if (has_doppler) {
+      v = {speeds[0][k], speeds[1][k], speeds[2][k]};
+    } else if (has_course) {
+      v = world.transpose() * Eigen::Vector3d(speeds[0][k], speeds[1][k], slope(depth, k));
+    } else {
+      v = world.transpose() * Eigen::Vector3d(slope(north, k), slope(east, k), slope(depth, k));
+    }
+    const std::array<const std::vector<double>*, 3> angles{&roll, &pitch, &heading};
+    Eigen::Vector3d omega;
+    for (std::size_t i = 0; i < 3; ++i)
+      omega[static_cast<Eigen::Index>(i)] = rates[i].empty() ? slope(*angles[i], k, true) : rates[i][k];
+    body.velocity << v, omega;
+    body.position_m = {reckoned.x(), reckoned.y(), depth[k]};
+    if (by_fixes) body.position_m.head<2>() = Eigen::Vector2d(north[k], east[k]);
+    // A silence begins a new track; no prediction reaches over it.
+    const Eigen::Vector3d over = world * v;
+    reckoned += kGrid_s * over.head<2>();
+    if (!reckoned.allFinite()) reckoned.setZero();
+    bodies.push_back(body);
+  }
+}
+
+/// Accelerations by least squares on what was measured.
+class Regression {
+ public:
+  Regression(const config::Layout& layout, const std::vector<Track>& tracks, bool is_quadratic)
+      : layout_(layout), is_quadratic_(is_quadratic) {
+    Eigen::MatrixXd squares, products;
+    for (const Track& track : tracks) {
+      for (std::size_t k = kDifference; k + kDifference < track.bodies.size(); ++k) {
+        if (!track.is_measured(k) || !track.is_measured(k - kDifference) || !track.is_measured(k + kDifference))
+          continue;
+        const Eigen::VectorXd row = terms(track.bodies[k], track.actuators, kGrid_s * static_cast<double>(k));
+        if (squares.size() == 0) {
+          squares = Eigen::MatrixXd::Zero(row.size(), row.size());
+          products = Eigen::MatrixXd::Zero(row.size(), 6);
+        }
+        squares += row * row.transpose();
+        products += row * track.acceleration(k).transpose();
+      }
+    }
+    if (squares.size() == 0)
+      throw std::invalid_argument("--fit: nowhere are commands and motion measured together");
+    // Terms that never changed count for nothing.
+    constexpr double kRidge = 1e-8;
+    const Eigen::VectorXd scale = squares.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd scaled = scale.asDiagonal() * squares * scale.asDiagonal();
+    scaled.diagonal().array() += kRidge;
+    coefficients_ = (scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * products)).transpose();
+  }
+
+  [[nodiscard]] sim::Vector6 acceleration(const sim::Body& body, const ActuatorTrajectory& actuators,
+                                          double time_s) const {
+    return coefficients_ * terms(body, actuators, time_s);
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd terms(const sim::Body& body, const ActuatorTrajectory& actuators,
+                                      double time_s) const {
+    sim::ActuatorValues positions = sim::ActuatorValues::neutral(layout_);
+    actuators.at(time_s, positions);
+    std::vector<double> all(body.velocity.begin(), body.velocity.end());
+    for (const auto* part :
+         {&positions.thrusters, &positions.surfaces_rad, &positions.ballasts_N, &positions.masses_m})
+      all.insert(all.end(), part->begin(), part->end());
+    const std::size_t plain = all.size();
+    const double u = body.velocity[0];
+    if (is_quadratic_) {
+      for (std::size_t i = 0; i < plain; ++i) {
+        all.push_back(all[i] * std::abs(all[i]));
+        if (i > 0) all.push_back(all[i] * u);
+        if (i >= 6) all.push_back(all[i] * u * std::abs(u));
+      }
+      all.push_back(body.velocity[1] * body.velocity[5]);
+    }
+    all.insert(all.end(), {1, std::sin(body.euler_rad.x()), std::sin(body.euler_rad.y())});
+    return Eigen::Map<Eigen::VectorXd>(all.data(), std::ssize(all));
+  }
+
+  const config::Layout& layout_;
+  bool is_quadratic_;
+  Eigen::MatrixXd coefficients_;
+};
+
+class Sums {
+ public:
+  void add(Predictor by, const sim::Body& predicted, const sim::Body& measured) {
+    const auto i = static_cast<std::size_t>(by);
+    const auto velocity = predicted.velocity - measured.velocity;
+    position_[i] += (predicted.position_m - measured.position_m).head<2>().squaredNorm();
+    heading_[i] += std::pow(base::wrapped(predicted.euler_rad.z() - measured.euler_rad.z()), 2);
+    depth_[i] += std::pow(predicted.position_m.z() - measured.position_m.z(), 2);
+    velocity_[i] += velocity.head<3>().squaredNorm();
+  }
+  void put(PredictionErrors& out, bool has_regressions, bool has_depth) const {
+    if (out.starts == 0) return;
+    const auto rms = [&](double sum) { return std::sqrt(sum / static_cast<double>(out.starts)); };
+    for (std::size_t i = 0; i < kPredictors.size(); ++i) {
+      if (!has_regressions && i >= static_cast<std::size_t>(Predictor::linear)) continue;
+      out.position_m[i] = rms(position_[i]);
+      out.heading_rad[i] = rms(heading_[i]);
+      if (has_depth) out.depth_m[i] = rms(depth_[i]);
+      out.velocity_m_s[i] = rms(velocity_[i]);
+    }
+  }
+
+ private:
+  using Row = std::array<double, kPredictors.size()>;
+  Row position_{}, heading_{}, depth_{}, velocity_{};
+};
+
+double of(const PredictionErrors::Row& row, Predictor by) {
+  return row[static_cast<std::size_t>(by)].value_or(std::numeric_limits<double>::infinity());
+}
+
+void judge(Prediction& all) {
+  const PredictionErrors& farthest = all.errors[2].starts > 0 ? all.errors[2] : all.errors[1];
+  const double other =
+      std::min(of(farthest.position_m, Predictor::hold), of(farthest.position_m, Predictor::linear));
+  all.is_steered = farthest.starts > 0 && of(farthest.position_m, Predictor::still) < kSteered * other;
+  const bool by_velocity = all.is_steered || all.errors[1].starts == 0;
+  const auto& row = by_velocity ? all.errors[0].velocity_m_s : all.errors[1].position_m;
+  all.worse_than_linear = of(row, Predictor::layout) > of(row, Predictor::linear);
+  all.worse_than_hold = of(row, Predictor::layout) > of(row, Predictor::hold);
+}
+
+}  // namespace
+
+Prediction predict(const PredictionRequest& request, const std::function<void(double)>& progress) {
+  std::vector<Track> fitted, judged;
+  for (const RecordedMotion& motion : request.fit) fitted.emplace_back(request.layout, motion);
+  for (const RecordedMotion& motion : request.recordings) judged.emplace_back(request.layout, motion);
+  std::optional<Regression> linear, quadratic;
+  if (!fitted.empty()) {
+    linear.emplace(request.layout, fitted, false);
+    quadratic.emplace(request.layout, fitted, true);
+  }
+  const sim::LayoutVehicle vehicle(request.layout);
+  Prediction all;
+  std::array<Sums, kAfter_s.size()> sums;
+  for (std::size_t i = 0; i < kAfter_s.size(); ++i) all.errors[i].after_s = kAfter_s[i];
+  const auto spacing = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(request.every_s / kGrid_s)));
+  const auto farthest = static_cast<std::size_t>(std::lround(kAfter_s.back() / kGrid_s));
+  bool has_depth = true;
+  all.by_fixes = true;
+  for (std::size_t t = 0; t < judged.size(); ++t) {
+    const Track& track = judged[t];
+    has_depth = has_depth && track.has_depth;
+    all.by_fixes = all.by_fixes && track.by_fixes;
+    for (std::size_t start = 0; start < track.bodies.size(); start += spacing) {
+      progress((static_cast<double>(t) + static_cast<double>(start) / static_cast<double>(track.bodies.size())) /
+               static_cast<double>(judged.size()));
+      if (!track.is_measured(start)) continue;
+      const sim::Body& begin = track.bodies[start];
+      std::array<sim::Body, kPredictors.size()> now;
+      now.fill(begin);
+      now[static_cast<std::size_t>(Predictor::still)].velocity.setZero();
+      bool is_sound = true;
+      for (std::size_t k = start; k < start + farthest && track.is_measured(k + 1); ++k) {
+        const double time_s = kGrid_s * static_cast<double>(k);
+        const auto follow = [&](Predictor by, const Regression* regression) {
+          sim::Body& body = now[static_cast<std::size_t>(by)];
+          const sim::Body next =
+              moved(body,
+                    regression == nullptr ? sim::Vector6::Zero()
+                                          : regression->acceleration(body, track.actuators, time_s + kGrid_s / 2),
+                    kGrid_s);
+          if (is_sane(next)) body = next;
+        };
+        follow(Predictor::hold, nullptr);
+        if (linear) {
+          follow(Predictor::linear, &*linear);
+          follow(Predictor::quadratic, &*quadratic);
+        }
+        sim::Body& body = now[static_cast<std::size_t>(Predictor::layout)];
+        sim::ActuatorValues positions = sim::ActuatorValues::neutral(request.layout);
+        for (int i = 0; i < static_cast<int>(std::lround(kGrid_s / kModelStep_s)) && is_sound; ++i) {
+          track.actuators.mean(time_s + i * kModelStep_s, kModelStep_s, positions);
+          const sim::Body next = vehicle.step(body, positions, kModelStep_s).body;
+          is_sound = is_sane(next);
+          if (is_sound) body = next;
+        }
+        for (std::size_t i = 0; i < kAfter_s.size(); ++i) {
+          if (k + 1 - start != static_cast<std::size_t>(std::lround(kAfter_s[i] / kGrid_s))) continue;
+          ++all.errors[i].starts;
+          for (std::size_t p = 0; p < kPredictors.size(); ++p)
+            sums[i].add(static_cast<Predictor>(p), now[p], track.bodies[k + 1]);
+        }
+      }
+      if (!is_sound) ++all.diverged;
+    }
+  }
+  if (all.errors[0].starts == 0)
+    throw std::invalid_argument("attitude, velocity and position are nowhere measured for a second on end");
+  for (std::size_t i = 0; i < kAfter_s.size(); ++i) sums[i].put(all.errors[i], linear.has_value(), has_depth);
+  judge(all);
+  return all;
+}
+
+}  // namespace navcal::identify
