@@ -4,13 +4,12 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "analysis/failure.h"
 #include "config/error.h"
 #include "record/recording.h"
 
 namespace navcal::cli {
 
-void with_exit_statuses(const std::function<void()>& work) {
+void with_exit_statuses(const std::function<void()>& work, analysis::Exit of_arguments) {
   try {
     work();
   } catch (const record::BadRecording& error) {
@@ -18,7 +17,7 @@ void with_exit_statuses(const std::function<void()>& work) {
   } catch (const config::Error& error) {
     throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, error.what());
+    throw analysis::Failure(of_arguments, error.what());
   } catch (const std::system_error& error) {
     throw analysis::Failure(analysis::Exit::failed, error.what());
   }

@@ -4,20 +4,19 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "base/printable.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
+#include "cli/recorded_motions.h"
 #include "cli/result_file.h"
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "identify/answer/identification.h"
-#include "record/recording.h"
 #include "report/identify_report.h"
 
 namespace navcal::cli {
@@ -45,16 +44,8 @@ identify::Identification identification_of(const IdentifyCommandOptions& options
   request.settings.window_s = options.window_s;
   request.advise = !options.no_advice;
   analysis::Progress progress("identify", analysis::Progress::Answer::at_the_end);
-  const auto load = [&](const std::vector<std::string>& files, std::vector<identify::RecordedMotion>& out) {
-    for (const std::string& file : files) {
-      out.push_back(identify::load_motion(
-          file, [&](double done) { progress.show("reading", done); }, settings));
-      for (const auto& remark : out.back().remarks)
-        std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
-    }
-  };
-  load(options.files, request.recordings);
-  load(options.held_out, request.held_out);
+  request.recordings = load_motions(options.files, settings, progress);
+  request.held_out = load_motions(options.held_out, settings, progress);
   return identify::identify(request, [&](std::string_view what, double done) { progress.show(what, done); });
 }
 
@@ -75,17 +66,8 @@ void run_identify(const IdentifyCommandOptions& options) {
     if (!file.empty() && file != "-") expect_folder_of(file);
   }
   expect_no_overwriting(inputs_of(options), {options.output, options.json, options.report});
-  try {
-    write_identification(options, identification_of(options));
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+  with_exit_statuses([&] { write_identification(options, identification_of(options)); },
+                     analysis::Exit::bad_input);
 }
 
 }  // namespace

@@ -5,20 +5,19 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
+#include "cli/recorded_motions.h"
 #include "cli/result_file.h"
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "identify/answer/prediction.h"
-#include "record/recording.h"
 #include "report/vehicle_check.h"
 #include "report/vehicle_prediction.h"
 #include "sim/layout/layout_of.h"
@@ -65,13 +64,8 @@ identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
   std::optional<config::Settings> settings;
   if (!arguments.config.empty()) settings = config::load(arguments.config);
   analysis::Progress progress("vehicle predict", analysis::Progress::Answer::at_the_end);
-  const auto load = [&](const std::vector<std::string>& files, std::vector<identify::RecordedMotion>& out) {
-    for (const std::string& file : files)
-      out.push_back(identify::load_motion(
-          file, [&](double done) { progress.show("reading", done); }, settings));
-  };
-  load(arguments.files, request.recordings);
-  load(arguments.fit, request.fit);
+  request.recordings = load_motions(arguments.files, settings, progress);
+  request.fit = load_motions(arguments.fit, settings, progress);
   return identify::predict(request, [&](double done) { progress.show("predicting", done); });
 }
 
@@ -82,22 +76,16 @@ void predict_vehicle(const VehiclePredictArguments& arguments) {
   inputs.insert(inputs.end(), {arguments.layout, arguments.config});
   expect_no_overwriting(inputs, {arguments.json});
   if (!arguments.json.empty() && !json_only) expect_folder_of(arguments.json);
-  try {
-    const identify::Prediction found = prediction_of(arguments);
-    if (!arguments.json.empty() && !json_only)
-      write_result(arguments.json, report::vehicle_prediction_json(found));
-    analysis::Output output(STDOUT_FILENO, "standard output");
-    output.append(json_only ? report::vehicle_prediction_json(found) : report::vehicle_prediction_text(found));
-    output.flush();
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+  with_exit_statuses(
+      [&] {
+        const identify::Prediction found = prediction_of(arguments);
+        if (!arguments.json.empty() && !json_only)
+          write_result(arguments.json, report::vehicle_prediction_json(found));
+        analysis::Output output(STDOUT_FILENO, "standard output");
+        output.append(json_only ? report::vehicle_prediction_json(found) : report::vehicle_prediction_text(found));
+        output.flush();
+      },
+      analysis::Exit::bad_input);
 }
 
 void convert_vehicle(const VehicleConvertArguments& arguments) {
