@@ -60,7 +60,7 @@ class StartUp {
   virtual Script script() = 0;
   /// For what counts whenever it comes.
   virtual void on_any_frame(const protocols::Frame&) {}
-  /// What state() tells after the phase.
+  /// Words that state() adds to those of enter().
   [[nodiscard]] virtual std::string remark() const { return {}; }
 
   /// Sends a command, again while it is not answered. Frames before the first time are no answers.

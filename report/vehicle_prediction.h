@@ -7,7 +7,7 @@
 
 namespace navcal::report {
 
-/// What navcal vehicle predict shows: a table of errors by horizon and predictor, or one JSON object (degrees).
+/// Answer of navcal vehicle predict: a table of errors by horizon and predictor, or one JSON object (degrees).
 [[nodiscard]] std::string vehicle_prediction_text(const identify::Prediction& found);
 [[nodiscard]] std::string vehicle_prediction_json(const identify::Prediction& found);
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,10 +16,12 @@
 namespace navcal::identify {
 namespace {
 
-constexpr double kGrid_s = 0.1, kModelStep_s = 0.02;
+constexpr double kGrid_s = 0.1;
+constexpr int kModelSteps = 5;  ///< of the layout's vehicle, in one of the grid
+constexpr double kModelStep_s = kGrid_s / kModelSteps;
 constexpr double kGap_s = 2;               ///< between readings, which are interpolated within
 constexpr std::ptrdiff_t kDifference = 3;  ///< steps of the grid before and behind, for a derivative
-constexpr std::array kAfter_s{1.0, 10.0, 60.0};
+constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};  ///< steps of the grid
 constexpr double kSteered = 3;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -41,13 +42,6 @@ std::vector<double> on_grid(const RecordedMotion& motion, Channel channel, std::
   return out;
 }
 
-Eigen::Matrix3d rotation_of(const Eigen::Vector3d& euler_rad) {
-  return (Eigen::AngleAxisd(euler_rad.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(euler_rad.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(euler_rad.x(), Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
 /// The body a step later at this velocity, whose derivative is given.
 sim::Body moved(const sim::Body& body, const sim::Vector6& acceleration, double step_s) {
   sim::Body next = body;
@@ -55,14 +49,14 @@ sim::Body moved(const sim::Body& body, const sim::Vector6& acceleration, double 
   const sim::Vector6 mean = (body.velocity + next.velocity) / 2;
   const double roll = body.euler_rad.x(), tilt = std::tan(body.euler_rad.y());
   const double across = std::sin(roll) * mean[4] + std::cos(roll) * mean[5];
-  next.position_m += step_s * rotation_of(body.euler_rad) * mean.head<3>();
+  next.position_m += step_s * world_from_body(body.euler_rad) * mean.head<3>();
   next.euler_rad +=
       step_s * Eigen::Vector3d(mean[3] + tilt * across, std::cos(roll) * mean[4] - std::sin(roll) * mean[5],
                                across / std::cos(body.euler_rad.y()));
   return next;
 }
 
-/// What one recording measured of the motion on the grid, and where its actuators were.
+/// Motion on the grid as one recording measured it, and the positions of its actuators.
 struct Track {
   std::vector<sim::Body> bodies;  ///< NaN where it is not measured
   ActuatorTrajectory actuators;
@@ -122,7 +116,7 @@ Track::Track(const config::Layout& layout, const RecordedMotion& motion) {
   for (std::size_t k = 0; k < rows; ++k) {
     sim::Body body;
     body.euler_rad = {roll[k], pitch[k], heading[k]};
-    const Eigen::Matrix3d world = rotation_of(body.euler_rad);
+    const Eigen::Matrix3d world = world_from_body(body.euler_rad);
     Eigen::Vector3d v;
     if (has_doppler) {
       v = {speeds[0][k], speeds[1][k], speeds[2][k]};
@@ -250,75 +244,96 @@ void judge(Prediction& all) {
   all.worse_than_hold = of(row, Predictor::layout) > of(row, Predictor::hold);
 }
 
+/// The ways to predict that there are.
+struct Predictors {
+  const sim::LayoutVehicle& vehicle;
+  std::optional<Regression> linear, quadratic;
+};
+
+/// All predictions from one measured state.
+class Forecast {
+ public:
+  explicit Forecast(const sim::Body& begin) {
+    now_.fill(begin);
+    (*this)[Predictor::still].velocity.setZero();
+  }
+  /// A step of the grid on.
+  void advance(const Predictors& by, const ActuatorTrajectory& actuators, double time_s) {
+    move((*this)[Predictor::hold], sim::Vector6::Zero());
+    const auto follow = [&](Predictor predictor, const std::optional<Regression>& regression) {
+      sim::Body& body = (*this)[predictor];
+      if (regression) move(body, regression->acceleration(body, actuators, time_s + kGrid_s / 2));
+    };
+    follow(Predictor::linear, by.linear);
+    follow(Predictor::quadratic, by.quadratic);
+    sim::ActuatorValues positions = sim::ActuatorValues::neutral(by.vehicle.layout());
+    for (int i = 0; i < kModelSteps && is_sound_; ++i) {
+      actuators.mean(time_s + i * kModelStep_s, kModelStep_s, positions);
+      const sim::Body next = by.vehicle.step((*this)[Predictor::layout], positions, kModelStep_s).body;
+      is_sound_ = is_sane(next);
+      if (is_sound_) (*this)[Predictor::layout] = next;
+    }
+  }
+  sim::Body& operator[](Predictor predictor) { return now_[static_cast<std::size_t>(predictor)]; }
+  [[nodiscard]] bool is_sound() const { return is_sound_; }  ///< the layout's vehicle has left no bounds
+
+ private:
+  static void move(sim::Body& body, const sim::Vector6& acceleration) {
+    const sim::Body next = moved(body, acceleration, kGrid_s);
+    if (is_sane(next)) body = next;
+  }
+
+  std::array<sim::Body, kPredictors.size()> now_;
+  bool is_sound_ = true;
+};
+
 }  // namespace
 
 Prediction predict(const PredictionRequest& request, const std::function<void(double)>& progress) {
   std::vector<Track> fitted, judged;
   for (const RecordedMotion& motion : request.fit) fitted.emplace_back(request.layout, motion);
   for (const RecordedMotion& motion : request.recordings) judged.emplace_back(request.layout, motion);
-  std::optional<Regression> linear, quadratic;
-  if (!fitted.empty()) {
-    linear.emplace(request.layout, fitted, false);
-    quadratic.emplace(request.layout, fitted, true);
-  }
   const sim::LayoutVehicle vehicle(request.layout);
+  Predictors by{vehicle, {}, {}};
+  if (!fitted.empty()) {
+    by.linear.emplace(request.layout, fitted, false);
+    by.quadratic.emplace(request.layout, fitted, true);
+  }
   Prediction all;
-  std::array<Sums, kAfter_s.size()> sums;
-  for (std::size_t i = 0; i < kAfter_s.size(); ++i) all.errors[i].after_s = kAfter_s[i];
-  const auto spacing = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(request.every_s / kGrid_s)));
-  const auto farthest = static_cast<std::size_t>(std::lround(kAfter_s.back() / kGrid_s));
-  bool has_depth = true;
-  all.by_fixes = true;
-  for (std::size_t t = 0; t < judged.size(); ++t) {
-    const Track& track = judged[t];
-    has_depth = has_depth && track.has_depth;
-    all.by_fixes = all.by_fixes && track.by_fixes;
-    for (std::size_t start = 0; start < track.bodies.size(); start += spacing) {
-      progress((static_cast<double>(t) + static_cast<double>(start) / static_cast<double>(track.bodies.size())) /
-               static_cast<double>(judged.size()));
-      if (!track.is_measured(start)) continue;
-      const sim::Body& begin = track.bodies[start];
-      std::array<sim::Body, kPredictors.size()> now;
-      now.fill(begin);
-      now[static_cast<std::size_t>(Predictor::still)].velocity.setZero();
-      bool is_sound = true;
-      for (std::size_t k = start; k < start + farthest && track.is_measured(k + 1); ++k) {
-        const double time_s = kGrid_s * static_cast<double>(k);
-        const auto follow = [&](Predictor by, const Regression* regression) {
-          sim::Body& body = now[static_cast<std::size_t>(by)];
-          const sim::Body next =
-              moved(body,
-                    regression == nullptr ? sim::Vector6::Zero()
-                                          : regression->acceleration(body, track.actuators, time_s + kGrid_s / 2),
-                    kGrid_s);
-          if (is_sane(next)) body = next;
-        };
-        follow(Predictor::hold, nullptr);
-        if (linear) {
-          follow(Predictor::linear, &*linear);
-          follow(Predictor::quadratic, &*quadratic);
-        }
-        sim::Body& body = now[static_cast<std::size_t>(Predictor::layout)];
-        sim::ActuatorValues positions = sim::ActuatorValues::neutral(request.layout);
-        for (int i = 0; i < static_cast<int>(std::lround(kGrid_s / kModelStep_s)) && is_sound; ++i) {
-          track.actuators.mean(time_s + i * kModelStep_s, kModelStep_s, positions);
-          const sim::Body next = vehicle.step(body, positions, kModelStep_s).body;
-          is_sound = is_sane(next);
-          if (is_sound) body = next;
-        }
-        for (std::size_t i = 0; i < kAfter_s.size(); ++i) {
-          if (k + 1 - start != static_cast<std::size_t>(std::lround(kAfter_s[i] / kGrid_s))) continue;
-          ++all.errors[i].starts;
-          for (std::size_t p = 0; p < kPredictors.size(); ++p)
-            sums[i].add(static_cast<Predictor>(p), now[p], track.bodies[k + 1]);
-        }
+  std::array<Sums, kAfter.size()> sums;
+  for (std::size_t i = 0; i < kAfter.size(); ++i) all.errors[i].after_s = kGrid_s * static_cast<double>(kAfter[i]);
+  const auto forecast_from = [&](const Track& track, std::size_t start) {
+    Forecast forecast(track.bodies[start]);
+    for (std::size_t step = 1; step <= kAfter.back() && track.is_measured(start + step); ++step) {
+      forecast.advance(by, track.actuators, kGrid_s * static_cast<double>(start + step - 1));
+      const auto due = std::find(kAfter.begin(), kAfter.end(), step);
+      if (due == kAfter.end()) continue;
+      const auto i = static_cast<std::size_t>(due - kAfter.begin());
+      ++all.errors[i].starts;
+      for (std::size_t p = 0; p < kPredictors.size(); ++p) {
+        const auto predictor = static_cast<Predictor>(p);
+        sums[i].add(predictor, forecast[predictor], track.bodies[start + step]);
       }
-      if (!is_sound) ++all.diverged;
+    }
+    if (!forecast.is_sound()) ++all.diverged;
+  };
+  const auto spacing = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(request.every_s / kGrid_s)));
+  for (std::size_t t = 0; t < judged.size(); ++t) {
+    const auto rows = judged[t].bodies.size();
+    for (std::size_t start = 0; start < rows; start += spacing) {
+      progress((static_cast<double>(t) + static_cast<double>(start) / static_cast<double>(rows)) /
+               static_cast<double>(judged.size()));
+      if (judged[t].is_measured(start)) forecast_from(judged[t], start);
     }
   }
   if (all.errors[0].starts == 0)
     throw std::invalid_argument("attitude, velocity and position are nowhere measured for a second on end");
-  for (std::size_t i = 0; i < kAfter_s.size(); ++i) sums[i].put(all.errors[i], linear.has_value(), has_depth);
+  const auto have = [&](bool Track::*what) {
+    return std::all_of(judged.begin(), judged.end(), [&](const Track& track) { return track.*what; });
+  };
+  all.by_fixes = have(&Track::by_fixes);
+  for (std::size_t i = 0; i < kAfter.size(); ++i)
+    sums[i].put(all.errors[i], by.linear.has_value(), have(&Track::has_depth));
   judge(all);
   return all;
 }

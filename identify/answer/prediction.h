@@ -40,7 +40,8 @@ struct Prediction {
   /// Standing still is not three times worse than holding and the regression: errors after 10 and 60 s judge the
   /// vehicle's controller.
   bool is_steered = false;
-  /// By the position after 10 s, or the velocity after 1 s where the vehicle is steered.
+  /// The layout's error is the larger one: of the position after 10 s, or of the velocity after 1 s where the
+  /// vehicle is steered.
   bool worse_than_linear = false, worse_than_hold = false;
   std::size_t diverged = 0;  ///< starts from which the layout left all bounds; its last state counts
   bool by_fixes = false;     ///< position was measured; else it is the integral of the measured velocity

@@ -11,13 +11,6 @@
 namespace navcal::identify {
 namespace {
 
-Eigen::Matrix3d world_from_body(const Eigen::Vector3d& euler_rad) {
-  return (Eigen::AngleAxisd(euler_rad.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(euler_rad.y(), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(euler_rad.x(), Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
 /// Heading of a compass that levels its field by a tilt of its own.
 double levelled_heading(const Eigen::Vector3d& euler_rad, const Eigen::Vector2d& tilt_rad, double dip_rad) {
   const Eigen::Vector3d field =

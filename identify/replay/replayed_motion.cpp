@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "base/rotation.h"
 #include "sim/layout/restoring.h"
 
 namespace navcal::identify {
@@ -21,6 +22,10 @@ bool is_sane(const sim::Body& body) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d world_from_body(const Eigen::Vector3d& euler_rad) {
+  return base::rotation_of({euler_rad.x(), euler_rad.y(), euler_rad.z()});
+}
 
 MotionPoint point_of(const StateVector& state) {
   MotionPoint point;

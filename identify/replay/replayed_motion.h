@@ -22,6 +22,8 @@ struct MotionPoint {
   Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  ///< roll and pitch through the sensor's first-order lag
 };
 
+/// Rotation of a vector from the body to the world, by roll, pitch and yaw.
+[[nodiscard]] Eigen::Matrix3d world_from_body(const Eigen::Vector3d& euler_rad);
 [[nodiscard]] MotionPoint point_of(const StateVector& state);
 [[nodiscard]] StateVector state_of(const MotionPoint& point);
 
