@@ -53,7 +53,7 @@ LiveSource::LiveSource(const asio::any_io_executor& executor, Settings settings,
       wake_(executor) {}
 
 void LiveSource::start() {
-  hub_.on_demand([this](const Demand& demand) { ask(demand); });
+  hub_.on_demand([this](const Demand&) { wake_.cancel(); });
   asio::co_spawn(
       socket_.get_executor(), [self = shared_from_this()] { return self->run(); }, asio::detached);
 }
@@ -75,9 +75,8 @@ asio::awaitable<void> LiveSource::run() {
       ++counters_.connections;
       hub_.set_link({true, ""});
       asked_.clear();
+      is_answer_due_ = false;
       topics_.clear();
-      to_write_ = "?RECORDS;\n";
-      ask(hub_.demand());
       asio::co_spawn(
           socket_.get_executor(), [self = shared_from_this()] { return self->write_requests(); }, asio::detached);
       problem = co_await read_lines();
@@ -135,24 +134,21 @@ asio::awaitable<std::string> LiveSource::read_lines() {
 }
 
 asio::awaitable<void> LiveSource::write_requests() {
+  const std::string records = "?RECORDS;\n";
+  const auto [unsent, sent] = co_await asio::async_write(socket_, asio::buffer(records), kNoThrow);
+  if (unsent) co_return;
   while (socket_.is_open()) {
-    if (to_write_.empty()) {
+    std::string wanted = watch_request(hub_.demand());
+    if (is_answer_due_ || wanted == asked_) {
       wake_.expires_after(kSilence);
       co_await wake_.async_wait(kNoThrow);
       continue;
     }
-    const std::string writing = std::exchange(to_write_, {});
-    const auto [error, n] = co_await asio::async_write(socket_, asio::buffer(writing), kNoThrow);
+    asked_ = std::move(wanted);
+    is_answer_due_ = true;
+    const auto [error, n] = co_await asio::async_write(socket_, asio::buffer(asked_), kNoThrow);
     if (error) co_return;
   }
-}
-
-void LiveSource::ask(const Demand& demand) {
-  std::string request = watch_request(demand);
-  if (!hub_.link().connected || request == asked_) return;
-  to_write_ += request;
-  asked_ = std::move(request);
-  wake_.cancel();
 }
 
 void LiveSource::take(std::string_view line) {
@@ -165,6 +161,11 @@ void LiveSource::take(std::string_view line) {
   } else if (line.starts_with(R"({"class":"ERROR")")) {
     hub_.set_link({true, "navcald: " + std::string(line)});
     ++counters_.not_understood;
+    is_answer_due_ = false;
+    wake_.cancel();
+  } else if (line.starts_with(R"({"class":"WATCH")")) {
+    is_answer_due_ = false;
+    wake_.cancel();
   } else if (!line.empty() && !line.starts_with(R"({"class":")")) {
     ++counters_.not_understood;
   }

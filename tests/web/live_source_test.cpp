@@ -44,6 +44,9 @@ struct Collected : Subscriber {
   std::vector<std::string> messages;
 };
 
+/// navcald's answer to a policy; what it says of the policy is of no use to the source.
+constexpr std::string_view kPolicyTaken = "{\"class\":\"WATCH\",\"enable\":true}\r\n";
+
 class LiveSourceTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -97,6 +100,7 @@ TEST_F(LiveSourceTest, AChangedDemandIsAskedForOnce) {
   status.accept();
   status.line();
   status.line();
+  status.send(kPolicyTaken);
   EXPECT_TRUE(becomes([&] { return hub_.link().connected; }));
   Collected bridge;
   in_loop([&] {
@@ -111,7 +115,28 @@ TEST_F(LiveSourceTest, AChangedDemandIsAskedForOnce) {
     hub_.remove(bridge);
     return 0;
   });
+  status.send(kPolicyTaken);
   EXPECT_NE(status.line().find(R"(["/imu"])"), std::string::npos);
+}
+
+TEST_F(LiveSourceTest, WhatChangesBeforeNavcaldHasAnsweredIsAskedForInOneRequest) {
+  FakeStatus status(port_);
+  status.accept();
+  status.line();
+  status.line();
+  EXPECT_TRUE(becomes([&] { return hub_.link().connected; }));
+  Collected viewer;
+  in_loop([&] {
+    Demand demand;
+    hub_.add(viewer, demand);
+    for (const char* topic : {"/compass", "/gps", "/nav"}) {
+      demand.topics.insert(topic);
+      hub_.change(viewer, demand);
+    }
+    return 0;
+  });
+  status.send("{\"class\":\"ERROR\",\"message\":\"not now\"}\n");
+  EXPECT_NE(status.line().find(R"("topics":["/compass","/gps","/imu","/nav"])"), std::string::npos);
 }
 
 TEST_F(LiveSourceTest, RecordsTopicsAndLossesAreTakenAndGarbageIsCounted) {

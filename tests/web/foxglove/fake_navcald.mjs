@@ -13,6 +13,7 @@ export class FakeNavcald {
       socket.on("error", () => {});
       socket.on("data", (data) => {
         if (`${data}`.includes("?RECORDS")) socket.write(`${JSON.stringify({ class: "RECORDS", topics: [{ topic: "/imu", schema_name: "navcal.Imu", schema: SCHEMA }] })}\n`);
+        if (`${data}`.includes("?WATCH")) socket.write('{"class":"WATCH","enable":true}\n');
         this.asked = `${data}`.trim().split("\n").at(-1);
       });
     });

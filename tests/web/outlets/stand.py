@@ -174,6 +174,7 @@ class FakeNavcald:
                     self.policies.append(json.loads(line[len("?WATCH="):].rstrip(";\n")))
                     with self.lock:
                         self.watching.add(client)
+                    client.sendall(b'{"class":"WATCH","enable":true}\n')
         with self.lock:
             self.watching.discard(client)
 
