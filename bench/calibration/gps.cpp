@@ -10,7 +10,7 @@
 
 #include "bench/calibration/gps_delay_tables.h"
 #include "calib/gps/gps_compass.h"
-#include "calib/gps/gps_course_fit.h"
+#include "tests/calib/gps/gps_course_fit.h"
 #include "tests/calib/gps_paths.h"
 
 namespace navcal::bench {

@@ -12,7 +12,7 @@ namespace navcal::calib {
 namespace {
 
 /// Euler angles lose their meaning at 90 degrees.
-constexpr double kSteepest_rad = 1.4;
+constexpr double kSteepestTilt_rad = 1.4;
 /// Standard deviation of the slope of the first readings.
 constexpr double kSlopeStd_rad_s = 0.1;
 /// Keeps the covariance regular where the fluid has settled; far below any inclinometer's resolution.
@@ -64,7 +64,7 @@ void TiltSmoother::predict(const Eigen::Vector3d& rate_rad_s, double duration_s)
   state_.segment<2>(kShownRoll) =
       kept * shown + (1 - kept) * begin + (duration_s - parameters_.lag_s * (1 - kept)) * slope;
   state_.head<2>() = begin + duration_s * slope;
-  for (const int i : {kRoll, kPitch}) state_[i] = std::clamp(state_[i], -kSteepest_rad, kSteepest_rad);
+  for (const int i : {kRoll, kPitch}) state_[i] = std::clamp(state_[i], -kSteepestTilt_rad, kSteepestTilt_rad);
 
   Covariance transition = Covariance::Identity();
   Eigen::Matrix<double, 2, kStates> by_state;

@@ -7,7 +7,7 @@
 #include "analysis/failure.h"
 #include "config/described/description_file.h"
 #include "protocols/checked_line.h"
-#include "protocols/described/encode.h"
+#include "tests/protocols/described_encode.h"
 #include "tests/analysis/described_port.h"
 
 namespace navcal::analysis::described {

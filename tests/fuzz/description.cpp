@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "config/described/description_file.h"
-#include "protocols/described/encode.h"
+#include "tests/protocols/described_encode.h"
 #include "protocols/described/reading.h"
 #include "protocols/described/scanner.h"
 #include "tests/fuzz/target.h"

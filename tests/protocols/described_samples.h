@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocols/described/encode.h"
+#include "tests/protocols/described_encode.h"
 #include "protocols/described/scanner.h"
 #include "tests/protocols/stream.h"
 

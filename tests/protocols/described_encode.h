@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocols/described/encode.h"
+#pragma once
 
 #include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "protocols/decimal.h"
+#include "protocols/described/description.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::described {
-namespace {
+namespace encoding {
 
 using Buffer = std::vector<std::uint8_t>;
 
-std::size_t from_front(int place, std::size_t length) {
+inline std::size_t from_front(int place, std::size_t length) {
   return place < 0 ? length - static_cast<std::size_t>(-place) : static_cast<std::size_t>(place);
 }
 
-double raw_for(const Field& field, double value) {
+inline double raw_for(const Field& field, double value) {
   if (std::isnan(value)) return field.absent.value_or(0);
   return (value * field.sensitivity + field.zero) / field.scale;
 }
 
-void put_bytes(std::uint8_t* p, std::uint64_t value, std::size_t size, ByteOrder order) {
+inline void put_bytes(std::uint8_t* p, std::uint64_t value, std::size_t size, ByteOrder order) {
   for (std::size_t i = 0; i < size; ++i)
     p[i] = static_cast<std::uint8_t>(value >> 8 * (order == ByteOrder::big ? size - 1 - i : i));
 }
 
-std::uint64_t get_bytes(const std::uint8_t* p, std::size_t size, ByteOrder order) {
+inline std::uint64_t get_bytes(const std::uint8_t* p, std::size_t size, ByteOrder order) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < size; ++i)
     value |= std::uint64_t{p[i]} << 8 * (order == ByteOrder::big ? size - 1 - i : i);
@@ -38,7 +42,7 @@ std::uint64_t get_bytes(const std::uint8_t* p, std::size_t size, ByteOrder order
 }
 
 /// The nearest number that a type holds, as its bytes hold it.
-std::uint64_t bits_of(double raw, Type type) {
+inline std::uint64_t bits_of(double raw, Type type) {
   if (type == Type::f32) return std::bit_cast<std::uint32_t>(static_cast<float>(raw));
   if (type == Type::f64) return std::bit_cast<std::uint64_t>(raw);
   const auto bits = static_cast<int>(8 * size_of(type));
@@ -48,7 +52,7 @@ std::uint64_t bits_of(double raw, Type type) {
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(std::round(raw), low, high)));
 }
 
-void put_field(const Field& field, double value, Buffer& frame) {
+inline void put_field(const Field& field, double value, Buffer& frame) {
   std::uint8_t* const p = frame.data() + field.at;
   const std::size_t size = size_of(field.type);
   std::uint64_t bits = bits_of(raw_for(field, value), field.type);
@@ -59,11 +63,11 @@ void put_field(const Field& field, double value, Buffer& frame) {
   put_bytes(p, bits, size, field.byte_order);
 }
 
-void put_text(std::string_view text, std::size_t at, Buffer& frame) {
+inline void put_text(std::string_view text, std::size_t at, Buffer& frame) {
   std::copy(text.begin(), text.end(), frame.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-std::size_t binary_length(const FrameKind& kind) {
+inline std::size_t binary_length(const FrameKind& kind) {
   if (kind.length.fixed != 0) return kind.length.fixed;
   std::size_t end = least_length(kind);
   const std::size_t tail = kind.checksum.at < 0 ? static_cast<std::size_t>(-kind.checksum.at) : 0;
@@ -74,7 +78,7 @@ std::size_t binary_length(const FrameKind& kind) {
   return static_cast<std::size_t>(steps * kind.length.times + kind.length.add);
 }
 
-Buffer encode_binary(const FrameKind& kind, std::span<const double> values) {
+inline Buffer encode_binary(const FrameKind& kind, std::span<const double> values) {
   Buffer frame(binary_length(kind));
   for (std::size_t i = 0; i < kind.fields.size(); ++i) put_field(kind.fields[i], values[i], frame);
   put_text(kind.start, 0, frame);
@@ -93,7 +97,7 @@ Buffer encode_binary(const FrameKind& kind, std::span<const double> values) {
   return frame;
 }
 
-std::string printed(const Field& field, double value) {
+inline std::string printed(const Field& field, double value) {
   if (std::isnan(value) && !field.absent) return {};
   const double raw = raw_for(field, value);
   const double size = field.sign_at > 0 ? std::abs(raw) : raw;
@@ -113,7 +117,7 @@ std::string printed(const Field& field, double value) {
   return std::string(digits, static_cast<std::size_t>(end - digits));
 }
 
-Buffer encode_text(const FrameKind& kind, std::span<const double> values) {
+inline Buffer encode_text(const FrameKind& kind, std::span<const double> values) {
   std::map<std::size_t, std::string> numbered;
   std::vector<std::string> keyed;
   for (std::size_t i = 0; i < kind.fields.size(); ++i) {
@@ -148,11 +152,15 @@ Buffer encode_text(const FrameKind& kind, std::span<const double> values) {
   return {line.begin(), line.end()};
 }
 
-}  // namespace
+}  // namespace encoding
 
-std::vector<std::uint8_t> encode(const Description& description, const FrameKind& kind,
-                                 std::span<const double> values) {
-  return description.is_text ? encode_text(kind, values) : encode_binary(kind, values);
+/// A frame with these values, in the units of the description and in the order of its fields; NaN writes what
+/// means absent where the description states it, else 0, or nothing in a text. Numbers are rounded to what their
+/// type can hold. What the description says nothing of is 0. A frame that states its length has the least one that
+/// holds all fields.
+[[nodiscard]] inline std::vector<std::uint8_t> encode(const Description& description, const FrameKind& kind,
+                                                      std::span<const double> values) {
+  return description.is_text ? encoding::encode_text(kind, values) : encoding::encode_binary(kind, values);
 }
 
 }  // namespace navcal::protocols::described
