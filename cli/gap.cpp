@@ -61,13 +61,14 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (options.source.missions.size() > 1)
     throw std::invalid_argument(
         "several recordings together: not yet for a layout; diagnose one, and hold out others");
+  if (options.bank_missions != gap::Request{}.bank_missions)
+    throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
                                .holdouts = {options.source.holdouts.begin(), options.source.holdouts.end()},
                                .nominals = {options.nominals.begin(), options.nominals.end()},
                                .settings = {}};
   if (!options.source.config.empty()) files.settings = config::load(options.source.config);
   diagnosis::LayoutRequest request{.layout = layout, .excluded = options.source.excluded};
-  if (options.bank_missions != gap::Request{}.bank_missions) request.simulated_nominals = options.bank_missions;
   request.seed = options.bank_seed;
   analysis::Progress progress("gap", analysis::Progress::Answer::at_the_end);
   const auto show = [&](std::string_view what, double done) { progress.show(what, done); };

@@ -25,7 +25,6 @@ namespace {
 struct IdentifyCommandOptions {
   std::string vehicle, output, json, report, config;
   std::vector<std::string> files, held_out;
-  double window_s = identify::FitSettings{}.window_s;
   bool no_advice = false;
 };
 
@@ -41,7 +40,6 @@ identify::Identification identification_of(const IdentifyCommandOptions& options
   request.prior = config::load_layout(options.vehicle);
   std::optional<config::Settings> settings;
   if (!options.config.empty()) settings = config::load(options.config);
-  request.settings.window_s = options.window_s;
   request.advise = !options.no_advice;
   analysis::Progress progress("identify", analysis::Progress::Answer::at_the_end);
   request.recordings = load_motions(options.files, settings, progress);
@@ -97,9 +95,6 @@ void add_identify(CLI::App& app) {
       ->option_text("FILE.html");
   command->add_option("--config", options->config, "configuration of all recordings, instead of their own")
       ->option_text("FILE.toml");
-  command->add_option("--window", options->window_s, "length of the windows of the replay, s")
-      ->check(CLI::Range(0.5, 60.0))
-      ->capture_default_str();
   command->add_flag("--no-advice", options->no_advice, "do not look for manoeuvres that would tell more");
   command->footer(
       "docs/identify.md describes the method, the file and the JSON keys.\n\n"

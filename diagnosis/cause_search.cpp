@@ -1,23 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/cause_search.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
 #include "diagnosis/limits.h"
 
 namespace navcal::diagnosis {
 namespace {
 
-std::vector<Eigen::Index> columns_of(const CauseLibrary& library, const CauseSet& set) {
-  std::vector<Eigen::Index> all;
+/// Columns of a set with the prior of their sizes at some strength, in order.
+struct Members {
+  std::vector<Eigen::Index> columns;
+  Eigen::VectorXd mean, std;
+  std::vector<bool> one_sided;
+};
+
+Members members_of(const CauseSet& set, const CauseLibrary& library, double strength) {
+  Members members;
+  std::vector<double> mean, std;
   for (const std::size_t cause : set) {
-    for (const Eigen::Index column : library.causes[cause].columns()) all.push_back(column);
+    for (const CauseParameter& parameter : library.causes[cause].parameters) {
+      const double typical = parameter.typical * parameter.per_unit;
+      const bool is_switch = parameter.is_switch();
+      members.columns.push_back(parameter.column);
+      mean.push_back(is_switch ? typical : 0);
+      std.push_back((is_switch ? kSwitchScatter : strength) * typical);
+      members.one_sided.push_back(parameter.low == 0 && !is_switch);
+    }
   }
-  return all;
+  members.mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), std::ssize(mean));
+  members.std = Eigen::Map<const Eigen::VectorXd>(std.data(), std::ssize(std));
+  return members;
 }
 
 double log_mean_exp(const std::vector<double>& values) {
@@ -35,12 +55,39 @@ double log_share_above_zero(double z) {
   return -0.5 * z * z - std::log(-z * std::sqrt(std::numbers::pi / 2));
 }
 
+double log_prior(std::size_t size, std::size_t causes) {
+  double log_prior = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    log_prior -= i == 0 ? kComplexityPenalty_nats : kComplexityPenaltyPerFurtherEffect_nats;
+    log_prior -= std::log(static_cast<double>(causes - i) / static_cast<double>(i + 1));
+  }
+  return log_prior;
+}
+
+/// Two causes that move the same thing in the same way: the arm between the centres, the force of one actuator.
+bool are_one(const Cause& a, const Cause& b) {
+  if (a.of != b.of) return false;
+  const auto kind = [](const Cause& cause) {
+    if (cause.name == "gravity_shift" || cause.name == "buoyancy_shift") return 1;
+    return cause.name == "thrust_scale" || cause.name == "actuator_dead" || cause.name == "actuator_reversed" ? 2
+                                                                                                              : 0;
+  };
+  return kind(a) != 0 && kind(a) == kind(b);
+}
+
+/// Whether a cause is none of a set, and none that stands for one of it.
+bool is_new(std::size_t cause, const CauseSet& set, const CauseLibrary& library) {
+  return std::none_of(set.begin(), set.end(), [&](std::size_t member) {
+    return member == cause || are_one(library.causes[member], library.causes[cause]);
+  });
+}
+
 CauseSet with(CauseSet set, std::size_t cause) {
   set.insert(std::upper_bound(set.begin(), set.end(), cause), cause);
   return set;
 }
 
-/// Scores of sets, and the fits of those that were fitted at their own estimate.
+/// Scores of sets, and which of them were fitted at their own estimate.
 class Scores {
  public:
   /// A set that was fitted keeps the score of its own fit.
@@ -64,151 +111,161 @@ class Scores {
   std::set<CauseSet> own_;
 };
 
-/// Priors with which a set is fitted at its own estimate.
-std::vector<ParameterPrior> priors_for(const CauseLibrary& library, const ColumnPriors& priors,
-                                       const CauseSet& set, const Eigen::VectorXd& estimate) {
-  std::vector<ParameterPrior> all;
-  for (const std::size_t cause : set) {
-    for (const CauseParameter& parameter : library.causes[cause].parameters) {
-      // The estimate enters as the point to begin at; the prior about it is wide.
-      const double begin = std::clamp(estimate[parameter.column], parameter.low * parameter.per_unit,
-                                      parameter.high * parameter.per_unit);
-      all.push_back({parameter.column, begin, kMemberStrengths.back() * priors.typical[parameter.column]});
-    }
-  }
-  return all;
+/// Of the departures where a recording was linearised, but for a constant and the prior of the change.
+double log_posterior(const RecordingFit& fit, const Eigen::VectorXd& at, const JointPrior& prior,
+                     const Eigen::VectorXd& change) {
+  const Eigen::VectorXd apart = at - change - prior.mean;
+  return fit.linear.about(at).value - prior.root.triangularView<Eigen::Lower>().solve(apart).squaredNorm() / 2;
 }
 
 }  // namespace
 
-SetEvidence::SetEvidence(const LinearRecording& linear, const CauseLibrary& library, const ColumnPriors& priors)
-    : library_(library), priors_(priors),
-      evidence_(linear.gram, linear.score, priors.spike,
-                (kMemberStrengths.back() * priors.typical).cwiseMax(priors.spike)),
-      base_(evidence_.base() - 0.5 * linear.power) {}
-
-double SetEvidence::log_prior(std::size_t size) const {
-  double log_prior = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    log_prior -= i == 0 ? kComplexityPenalty_nats : kComplexityPenaltyPerFurtherEffect_nats;
-    log_prior -= std::log(static_cast<double>(library_.causes.size() - i) / static_cast<double>(i + 1));
-  }
-  return log_prior;
+SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set, double strength) const {
+  const Members members = members_of(set, library_, strength);
+  const Likelihood here = changes_.of(members.columns).about(members.mean);
+  const Eigen::MatrixXd covariance = covariance_of(here.information, members.std);
+  return {members.columns, members.mean + covariance * here.score, covariance};
 }
 
-double SetEvidence::operator()(const CauseSet& set) const {
-  if (set.empty()) return base_;
-  const std::vector<Eigen::Index> members = columns_of(library_, set);
-  const Eigen::VectorXd spike = priors_.spike(members), typical = priors_.typical(members);
-  std::vector<double> gains;
-  for (const double strength : kMemberStrengths) {
-    const Eigen::VectorXd slab = (strength * typical).cwiseMax(spike);
-    gains.push_back(evidence_.gain(members, slab) + gain_of_signs(set, members, slab));
-  }
-  return base_ + log_mean_exp(gains) + log_prior(set.size());
+SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set) const {
+  return posterior(set, kMemberStrengths.back());
 }
 
-/// What the evidence gains because some of the members cannot be negative, nats.
-double SetEvidence::gain_of_signs(const CauseSet& set, const std::vector<Eigen::Index>& members,
-                                  const Eigen::VectorXd& slab) const {
-  std::vector<bool> one_sided;
-  for (const std::size_t cause : set) {
-    for (const CauseParameter& parameter : library_.causes[cause].parameters)
-      one_sided.push_back(parameter.low == 0);
-  }
-  if (std::none_of(one_sided.begin(), one_sided.end(), [](bool is) { return is; })) return 0;
-  // Posterior of the members with the wide prior, from that with the narrow one.
-  const gap::Evidence::Posterior& narrow = evidence_.base_posterior();
-  const Eigen::MatrixXd covariance = narrow.covariance(members, members);
-  const Eigen::VectorXd more = slab.cwiseAbs2().cwiseInverse() - priors_.spike(members).cwiseAbs2().cwiseInverse();
-  Eigen::MatrixXd changed = covariance * more.asDiagonal();
-  changed.diagonal().array() += 1;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(changed);
-  const Eigen::MatrixXd wide_covariance = factor.solve(covariance);
-  const Eigen::VectorXd wide_mean = factor.solve(narrow.mean(members));
-  double gain = 0;
-  for (Eigen::Index i = 0; i < wide_mean.size(); ++i) {
-    if (one_sided[static_cast<std::size_t>(i)])
-      gain += log_share_above_zero(wide_mean[i] / std::sqrt(std::max(wide_covariance(i, i), 1e-300)));
+Eigen::VectorXd SetEvidence::Posterior::among(Eigen::Index count) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(count);
+  all(columns) = mean;
+  return all;
+}
+
+double SetEvidence::gain(const CauseSet& set, double strength) const {
+  const Members members = members_of(set, library_, strength);
+  const Likelihood here = changes_.of(members.columns).about(members.mean);
+  double gain = here.blurred(members.std.asDiagonal()).value - changes_.value;
+  if (std::none_of(members.one_sided.begin(), members.one_sided.end(), [](bool is) { return is; })) return gain;
+  const Posterior wide = posterior(set, strength);
+  for (Eigen::Index i = 0; i < wide.mean.size(); ++i) {
+    if (members.one_sided[static_cast<std::size_t>(i)])
+      gain += log_share_above_zero(wide.mean[i] / std::max(wide.std(i), 1e-150));
   }
   return gain;
 }
 
-SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set) const {
-  const gap::Evidence::Posterior posterior = evidence_.posterior(columns_of(library_, set));
-  return {posterior.mean, posterior.covariance.diagonal().cwiseSqrt()};
+double SetEvidence::gain(const CauseSet& set) const {
+  if (set.empty()) return 0;
+  std::vector<double> gains;
+  for (const double strength : kMemberStrengths) gains.push_back(gain(set, strength));
+  return log_mean_exp(gains) + log_prior(set.size(), library_.causes.size());
 }
 
-double SetEvidence::separation(std::size_t cause, const CauseSet& others) const {
-  const std::vector<Eigen::Index> members = library_.causes[cause].columns();
-  const Eigen::VectorXd values = priors_.typical / std::sqrt(static_cast<double>(members.size()));
-  return evidence_.separation(members, values, columns_of(library_, others));
+std::optional<RecordingFit> settled(const FittedRecording& recording, const JointPrior& prior,
+                                    const Eigen::VectorXd& from, const ChangeOf& change_of) {
+  std::optional<RecordingFit> best;
+  Eigen::VectorXd at = from, best_at = at, change = Eigen::VectorXd::Zero(from.size()), best_change = change;
+  double most = 0;
+  for (int round = 0; round < kMostSettlings; ++round) {
+    auto fit = recording.fit(at);
+    if (!fit && !best) break;
+    if (fit) {
+      // What a bound cuts off, it cuts off the change. A tolerance may lie beyond it: there it is extrapolated.
+      const Eigen::VectorXd cut_off = (change.array() != 0).select(fit->at - at, 0.0);
+      change += cut_off;
+      at += cut_off;
+    }
+    const double value = fit ? log_posterior(*fit, at, prior, change) : -std::numeric_limits<double>::infinity();
+    if (best && (!fit || value < most)) {
+      // Too far for the linearisation.
+      at = (at + best_at) / 2;
+      change = (change + best_change) / 2;
+      continue;
+    }
+    const bool is_there = best && value < most + kSettledWithin_nats;
+    best = std::move(fit);
+    most = value;
+    if (is_there) break;
+    best_at = at;
+    best_change = change;
+    change = change_of(prior.of_changes(best->linear));
+    at = prior.posterior_mean(best->linear.about(change)) + change;
+    // The begin may be anywhere.
+    if (round == 0) most = -std::numeric_limits<double>::infinity();
+  }
+  return best;
 }
 
-CauseSearchResult search_causes(const FittedRecording& recording, const RecordingFit& nominal,
-                                const CauseLibrary& library, const ColumnPriors& priors,
-                                const Progress& progress) {
+CauseSearchResult search_causes(const FittedRecording& recording, const JointPrior& prior,
+                                const CauseLibrary& library, const Progress& progress) {
+  CauseSearchResult result;
+  const Eigen::VectorXd no_change = Eigen::VectorXd::Zero(library.columns());
+  // Causes are looked for where the nominal vehicle is: its tolerances, fitted to a gap, lead astray.
+  auto first = recording.fit(prior.mean);
+  auto nominal = settled(recording, prior, prior.mean, [&](const Likelihood&) { return no_change; });
+  if (!nominal) throw std::invalid_argument("the layout cannot follow the recording: is it this vehicle's?");
+  if (!first) first = nominal;
+  result.none_at = prior.posterior_mean(nominal->linear);
+  const double none = prior.of_changes(nominal->linear).value;
+  const SetEvidence about_first(prior.of_changes(first->linear), library);
   Scores scores;
   std::map<CauseSet, RecordingFit> fits;
-  const SetEvidence about_nominal(nominal.linear, library, priors);
-  scores.set({}, about_nominal({}), true);
+  scores.set({}, none, true);
   for (std::size_t i = 0; i < library.causes.size(); ++i) {
-    scores.set({i}, about_nominal({i}));
-    for (std::size_t j = i + 1; j < library.causes.size(); ++j) scores.set({i, j}, about_nominal({i, j}));
+    scores.set({i}, none + about_first.gain({i}));
+    for (std::size_t j = i + 1; j < library.causes.size(); ++j) {
+      if (is_new(j, {i}, library)) scores.set({i, j}, none + about_first.gain({i, j}));
+    }
   }
   constexpr double kImpossible_nats = 1e6;
-  const auto fit_again = [&](const CauseSet& set, const RecordingFit& from, const SetEvidence& evidence) {
-    RecordingFit fit;
-    try {
-      fit = recording.fit(priors_for(library, priors, set, evidence.posterior(set).mean), &from, [](double) {});
-    } catch (const identify::UnboundedReplay&) {
+  const auto fit_again = [&](const CauseSet& set) {
+    // From the fit of the set without one of its members, where there is one.
+    const RecordingFit* here = &*first;
+    for (std::size_t left = 0; left < set.size(); ++left) {
+      CauseSet smaller = set;
+      smaller.erase(smaller.begin() + static_cast<std::ptrdiff_t>(left));
+      if (const auto found = fits.find(smaller); found != fits.end()) here = &found->second;
+    }
+    const auto estimated = [&](const Likelihood& changes) {
+      return SetEvidence(changes, library).posterior(set).among(library.columns());
+    };
+    const Eigen::VectorXd begin = estimated(prior.of_changes(here->linear));
+    auto there = settled(recording, prior, prior.posterior_mean(here->linear.about(begin)) + begin, estimated);
+    if (!there) {
       // With these effects the vehicle could not have moved as it did.
-      scores.set(set, about_nominal({}) - kImpossible_nats, true);
+      scores.set(set, none - kImpossible_nats, true);
       return;
     }
-    const SetEvidence here(fit.linear, library, priors);
-    scores.set(set, here(set), true);
-    if (set.size() < kMostEffects) {
-      for (std::size_t i = 0; i < library.causes.size(); ++i) {
-        if (!std::binary_search(set.begin(), set.end(), i)) scores.set(with(set, i), here(with(set, i)));
-      }
+    const SetEvidence evidence(prior.of_changes(there->linear), library);
+    scores.set(set, evidence(set), true);
+    for (std::size_t i = 0; i < library.causes.size() && set.size() < kMostEffects; ++i) {
+      if (is_new(i, set, library)) scores.set(with(set, i), evidence(with(set, i)));
     }
-    fits.insert_or_assign(set, std::move(fit));
+    fits.insert_or_assign(set, std::move(*there));
   };
-  // Leaders of each size at their own estimate, while they are not far behind the best.
-  constexpr double kHopeless_nats = 40;
-  for (std::size_t size = 1; size <= kMostEffects; ++size) {
-    for (std::size_t done = 0; done < kRefitted; ++done) {
-      progress((static_cast<double>(size - 1) + static_cast<double>(done) / kRefitted) / kMostEffects);
-      const auto ranked = scores.ranked();
-      const auto next = std::find_if(ranked.begin(), ranked.end(), [&](const ScoredSet& one) {
-        return one.causes.size() == size && !scores.is_fitted(one.causes);
-      });
-      if (next == ranked.end() || (size > 1 && next->log_odds < ranked.front().log_odds - kHopeless_nats)) break;
-      // From the fit of the set without one of its members, where there is one.
-      const RecordingFit* from = &nominal;
-      for (std::size_t left = 0; left < next->causes.size(); ++left) {
-        CauseSet smaller = next->causes;
-        smaller.erase(smaller.begin() + static_cast<std::ptrdiff_t>(left));
-        if (const auto found = fits.find(smaller); found != fits.end()) from = &found->second;
-      }
-      fit_again(next->causes, *from, SetEvidence(from->linear, library, priors));
+  // The leading single causes, then whatever leads or would be a rival without a fit of its own.
+  for (std::size_t done = 0; done < kRefitted + kReconsidered; ++done) {
+    progress(static_cast<double>(done) / (kRefitted + kReconsidered));
+    const auto ranked = scores.ranked();
+    const bool is_single = done < kRefitted;
+    const auto next = std::find_if(ranked.begin(), ranked.end(), [&](const ScoredSet& one) {
+      return !scores.is_fitted(one.causes) && (!is_single || one.causes.size() == 1);
+    });
+    if (next == ranked.end()) break;
+    if (done > 0 && next->log_odds < (is_single ? none : ranked.front().log_odds - kClass_nats)) {
+      if (is_single)
+        done = kRefitted - 1;
+      else
+        break;
+      continue;
     }
+    fit_again(CauseSet(next->causes));
   }
-  // The best set is judged by its own fit.
-  for (int i = 0; i < static_cast<int>(kRefitted); ++i) {
-    const CauseSet best = scores.ranked().front().causes;
-    if (scores.is_fitted(best)) break;
-    fit_again(best, nominal, about_nominal);
-  }
-  CauseSearchResult result;
   result.sets = scores.ranked();
+  // What only leads far from where it was linearised does not lead.
+  std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
+    leads = leads && !scores.is_fitted(one.causes);
+    return leads;
+  });
   const CauseSet& best = result.sets.front().causes;
-  result.best = best.empty() || !fits.contains(best) ? nominal : fits.at(best);
-  const SetEvidence evidence(result.best.linear, library, priors);
-  const auto posterior = evidence.posterior(best);
-  result.mean = posterior.mean;
-  result.std = posterior.std;
+  result.best = best.empty() ? std::move(*nominal) : std::move(fits.at(best));
+  result.changes = prior.of_changes(result.best.linear);
   return result;
 }
 

@@ -3,23 +3,16 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <map>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/causes.h"
 #include "diagnosis/recording_fit.h"
-#include "gap/inference/evidence.h"
 
 namespace navcal::diagnosis {
 
 /// Causes that act together: indices into CauseLibrary::causes, in order.
 using CauseSet = std::vector<std::size_t>;
-
-/// Standard deviations of the priors of all columns, about zero. Spike: a vehicle within tolerance. Typical: what
-/// strength 1 is, of columns that belong to a cause.
-struct ColumnPriors {
-  Eigen::VectorXd spike, typical;
-};
 
 struct ScoredSet {
   CauseSet causes;  ///< empty: no effect
@@ -30,40 +23,53 @@ struct ScoredSet {
 struct CauseSearchResult {
   std::vector<ScoredSet> sets;  ///< most probable first
   RecordingFit best;            ///< fitted with the causes of the first one
-  Eigen::VectorXd mean, std;    ///< posterior of all columns with that set
+  Eigen::VectorXd none_at;      ///< departures without a cause
+  Likelihood changes;           ///< of the nominal vehicle, in `best`
 };
 
-/// Log evidence of a set of causes by a linearised recording, nats, up to a constant that all sets and all
-/// linearisations share: a mixture of the strengths kMemberStrengths (spike-and-slab regression, docs/gap.md).
+/// Log evidence of sets of causes by the likelihood of changes of the nominal vehicle, nats: a mixture of the
+/// strengths kMemberStrengths (docs/gap.md, "Vehicles with a layout").
 class SetEvidence {
  public:
-  /// The library and the priors must outlive it.
-  SetEvidence(const LinearRecording& linear, const CauseLibrary& library, const ColumnPriors& priors);
-  [[nodiscard]] double operator()(const CauseSet& set) const;
+  /// The library must outlive it.
+  SetEvidence(Likelihood changes, const CauseLibrary& library) : changes_(std::move(changes)), library_(library) {}
 
+  /// Up to a constant that all sets and all linearisations of a recording share.
+  [[nodiscard]] double operator()(const CauseSet& set) const { return changes_.value + gain(set); }
+  /// Over that of no cause.
+  [[nodiscard]] double gain(const CauseSet& set) const;
+
+  /// Of the set's columns, in their order; with the widest prior.
   struct Posterior {
-    Eigen::VectorXd mean, std;
+    std::vector<Eigen::Index> columns;
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd covariance;
+
+    [[nodiscard]] double std(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
+    /// All columns, those of no member zero.
+    [[nodiscard]] Eigen::VectorXd among(Eigen::Index count) const;
   };
   [[nodiscard]] Posterior posterior(const CauseSet& set) const;
-  /// Expected evidence, nats, of a cause at its typical strength that the columns of `others` cannot take over.
-  [[nodiscard]] double separation(std::size_t cause, const CauseSet& others) const;
 
  private:
-  [[nodiscard]] double log_prior(std::size_t size) const;
-  [[nodiscard]] double gain_of_signs(const CauseSet& set, const std::vector<Eigen::Index>& members,
-                                     const Eigen::VectorXd& slab) const;
+  [[nodiscard]] Posterior posterior(const CauseSet& set, double strength) const;
+  [[nodiscard]] double gain(const CauseSet& set, double strength) const;
 
+  Likelihood changes_;
   const CauseLibrary& library_;
-  const ColumnPriors& priors_;
-  gap::Evidence evidence_;
-  double base_;
 };
 
-/// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation about the
-/// nominal vehicle; the leaders of each size are fitted again at their own estimate, because large effects are not
-/// linear, and score their larger neighbours.
-[[nodiscard]] CauseSearchResult search_causes(const FittedRecording& recording, const RecordingFit& nominal,
-                                              const CauseLibrary& library, const ColumnPriors& priors,
-                                              const Progress& progress);
+/// Change of the nominal vehicle by the likelihood of changes.
+using ChangeOf = std::function<Eigen::VectorXd(const Likelihood&)>;
+/// A recording linearised again and again where it says that its vehicle is, until its evidence settles. nullopt:
+/// a vehicle could not have moved so. Only recordings that have settled alike compare.
+[[nodiscard]] std::optional<RecordingFit> settled(const FittedRecording& recording, const JointPrior& prior,
+                                                  const Eigen::VectorXd& from, const ChangeOf& change_of);
+
+/// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation of the
+/// nominal vehicle; the leaders are fitted again at their own estimate, because large effects are not linear, and
+/// score their larger neighbours. Throws std::invalid_argument where the nominal vehicle cannot follow.
+[[nodiscard]] CauseSearchResult search_causes(const FittedRecording& recording, const JointPrior& prior,
+                                              const CauseLibrary& library, const Progress& progress);
 
 }  // namespace navcal::diagnosis

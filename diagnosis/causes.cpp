@@ -100,21 +100,22 @@ void add_effects(const config::Layout& layout, const std::set<std::string, std::
                                     .high = parameter.greatest,
                                     .column = static_cast<Eigen::Index>(library.parameters.size())});
         sim::LayoutEffect effect{&about, of, std::vector<double>(parameters.size())};
-        library.parameters.push_back({.name = cause.words() + " " + std::string(parameter.name),
-                                      .unit = {},
-                                      .prior = 0,
-                                      .prior_std = kTolerance * parameter.typical,
-                                      .low = parameter.least,
-                                      .high = parameter.greatest,
-                                      .key = {},
-                                      .elements = {},
-                                      .change =
-                                          [effect, i](config::Layout& changed, double value) {
-                                            sim::LayoutEffect here = effect;
-                                            here.values[i] = value;
-                                            changed = sim::changed_layout(std::move(changed), here);
-                                          },
-                                      .step = kEffectStep * parameter.typical});
+        library.parameters.push_back(
+            {.name = cause.words() + " " + std::string(parameter.name),
+             .unit = {},
+             .prior = 0,
+             .prior_std = kUsualTolerance * parameter.typical,
+             .low = parameter.least,
+             .high = parameter.greatest,
+             .key = {},
+             .elements = {},
+             .change =
+                 [effect, i](config::Layout& changed, double value) {
+                   sim::LayoutEffect here = effect;
+                   here.values[i] = value;
+                   changed = sim::changed_layout(std::move(changed), here);
+                 },
+             .step = (parameter.least == 0 ? kOneSidedStep : kEffectStep) * parameter.typical});
       }
       library.causes.push_back(std::move(cause));
     }

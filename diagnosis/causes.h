@@ -12,7 +12,7 @@
 
 namespace navcal::diagnosis {
 
-/// One number of a cause. Its unknown is a column of the fit of one recording (identify::ChainSystem::border()):
+/// One number of a cause. Its unknown is a column of the fit of one recording (identify::FilteredReplay):
 /// numbers of the layout, then parameters of effects, then the recording's nuisances.
 struct CauseParameter {
   std::string name;          ///< with its unit, as files and answers say it: "scale", "angle_deg"
@@ -20,6 +20,9 @@ struct CauseParameter {
   double per_unit = 1;       ///< unknown of the fit over value in the unit of the name (degrees: radians)
   double low = 0, high = 0;  ///< in the unit of the name
   Eigen::Index column = 0;
+
+  /// An actuator that is dead or reversed, or is not: other numbers stand for its tolerance.
+  [[nodiscard]] bool is_switch() const { return low == 0 && high == typical; }
 };
 
 /// What may be the cause of a gap: an effect of the layout's library on one part of it, or an error of an

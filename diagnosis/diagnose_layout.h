@@ -20,7 +20,6 @@ namespace navcal::diagnosis {
 struct LayoutRequest {
   config::Layout layout;              ///< numbers with standard errors are its tolerances
   std::vector<std::string> excluded;  ///< effects that the library is to be without
-  int simulated_nominals = 8;         ///< where `nominals` is empty
   std::uint64_t seed = 1;
   unsigned threads = 0;  ///< 0: as many as there are cores
 };
@@ -28,7 +27,8 @@ struct LayoutRequest {
 struct LayoutRecordings {
   identify::RecordedMotion recording;
   std::vector<identify::RecordedMotion> holdouts;  ///< other recordings of the same vehicle; may be none
-  std::vector<identify::RecordedMotion> nominals;  ///< recordings without a gap, which give the floor; may be none
+  std::vector<identify::RecordedMotion>
+      nominals;  ///< recordings without a gap, which give the floor; without any no cause is named
 };
 
 /// The same as files: captures or logs.

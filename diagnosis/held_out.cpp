@@ -1,53 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/held_out.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <random>
+#include <stdexcept>
 
 namespace navcal::diagnosis {
 
-ExplainedWindows held_out(const FittedRecording& recording, const RecordingFit& without,
-                          const CauseLibrary& library, const ColumnPriors& priors,
-                          const CauseSearchResult& found) {
-  std::vector<ParameterPrior> means;
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(library.columns());
-  ColumnPriors with = priors;
-  for (const std::size_t cause : found.sets.front().causes) {
-    for (const CauseParameter& parameter : library.causes[cause].parameters) {
-      const Eigen::Index column = parameter.column;
-      shift[column] = found.mean[column];
-      // The mean of a nuisance's prior is zero: it may be as large as it was found.
-      const double size = library.causes[cause].is_instrument ? std::abs(found.mean[column]) : 0;
-      with.spike[column] = std::max(found.std[column], priors.spike[column]);
-      means.push_back(
-          {column,
-           std::clamp(found.mean[column], parameter.low * parameter.per_unit, parameter.high * parameter.per_unit),
-           std::max(with.spike[column], size)});
-    }
-  }
-  ExplainedWindows windows{-std::numeric_limits<double>::infinity(), without.window_power, without.window_power,
-                           without.window_readings};
-  try {
-    const RecordingFit improved = recording.fit(means, &without, [](double) {});
-    windows.gain_nats = SetEvidence(improved.linear.about(shift), library, with)({}) -
-                        SetEvidence(without.linear, library, priors)({});
-    windows.after = improved.window_power;
-  } catch (const identify::UnboundedReplay&) {
-    // A vehicle with these effects could not have moved as this one did.
-  }
-  return windows;
+namespace {
+
+/// Log probability of a recording with a set as it was estimated elsewhere, but for a constant.
+double predicted(const Likelihood& changes, const SetEvidence& estimated, const CauseSet& set) {
+  if (set.empty()) return changes.value;
+  const auto posterior = estimated.posterior(set);
+  return changes.of(posterior.columns).about(posterior.mean).blurred(posterior.covariance.llt().matrixL()).value;
 }
 
-gap::Closure closure_of(std::span<const ExplainedWindows> recordings, double floor, std::uint64_t seed) {
+}  // namespace
+
+ExplainedRecording held_out(const FittedRecording& recording, const JointPrior& prior, const CauseLibrary& library,
+                            const CauseSearchResult& found) {
+  const CauseSet& best = found.sets.front().causes;
+  const SetEvidence estimated(found.changes, library);
+  const Eigen::VectorXd change = estimated.posterior(best).among(library.columns());
+  const auto changed_by = [&](const Eigen::VectorXd& by) {
+    return settled(recording, prior, prior.mean + by, [&](const Likelihood&) { return by; });
+  };
+  const auto none = changed_by(Eigen::VectorXd::Zero(library.columns())), with = changed_by(change);
+  ExplainedRecording explained{-std::numeric_limits<double>::infinity(), {}, {}, {}};
+  if (!none) throw std::invalid_argument("the layout cannot follow a held-out recording");
+  explained.before = explained.after =
+      recording.power(prior.posterior_mean(none->linear)).value_or(RecordingPower{});
+  // A vehicle with these effects could not have moved as this one did.
+  if (!with) return explained;
+  const Likelihood changes = prior.of_changes(with->linear);
+  const double of_all = predicted(changes, estimated, best);
+  explained.gain_nats = of_all - prior.of_changes(none->linear).value;
+  for (std::size_t left = 0; left < best.size(); ++left) {
+    CauseSet others = best;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left));
+    explained.member_nats.push_back(others.empty() ? explained.gain_nats
+                                                   : of_all - predicted(changes, estimated, others));
+  }
+  const auto after = recording.power(prior.posterior_mean(with->linear.about(change)) + change);
+  if (after) explained.after = *after;
+  return explained;
+}
+
+gap::Closure closure_of(std::span<const ExplainedRecording> recordings, double floor, std::uint64_t seed) {
   std::vector<double> before, after, readings;
-  for (const ExplainedWindows& windows : recordings) {
-    before.insert(before.end(), windows.before.begin(), windows.before.end());
-    after.insert(after.end(), windows.after.begin(), windows.after.end());
-    readings.insert(readings.end(), windows.readings.begin(), windows.readings.end());
+  const auto append = [](std::vector<double>& all, const std::vector<double>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (const ExplainedRecording& one : recordings) {
+    append(before, one.before.of_block);
+    append(after, one.after.of_block);
+    append(readings, one.before.readings);
   }
   const auto closed = [&](const auto& index) -> std::optional<double> {
     double b = 0, a = 0, n = 0;

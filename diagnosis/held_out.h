@@ -10,20 +10,20 @@
 
 namespace navcal::diagnosis {
 
-/// A recording without the causes found, and with them. Windows have sums of squares of the whitened residuals.
-struct ExplainedWindows {
-  double gain_nats = 0;  ///< by the causes; negative infinity where the vehicle could not have moved with them
-  std::vector<double> before, after, readings;
+/// A recording without the causes found, and with them.
+struct ExplainedRecording {
+  double gain_nats = 0;             ///< by the causes; negative infinity where the vehicle could not have moved so
+  std::vector<double> member_nats;  ///< that each of them adds to the others
+  RecordingPower before, after;
 };
 
-/// Predicts a held-out recording with the estimate of the most probable set. `without`: its fit without a cause.
-[[nodiscard]] ExplainedWindows held_out(const FittedRecording& recording, const RecordingFit& without,
-                                        const CauseLibrary& library, const ColumnPriors& priors,
-                                        const CauseSearchResult& found);
+/// Predicts a held-out recording with the estimate of the most probable set.
+[[nodiscard]] ExplainedRecording held_out(const FittedRecording& recording, const JointPrior& prior,
+                                          const CauseLibrary& library, const CauseSearchResult& found);
 
-/// How much of the gap goes away in some recordings together; the interval by drawing windows anew. `floor`: noise
+/// How much of the gap goes away in some recordings together; the interval by drawing blocks anew. `floor`: noise
 /// power of nominal recordings.
-[[nodiscard]] gap::Closure closure_of(std::span<const ExplainedWindows> recordings, double floor,
+[[nodiscard]] gap::Closure closure_of(std::span<const ExplainedRecording> recordings, double floor,
                                       std::uint64_t seed);
 
 }  // namespace navcal::diagnosis

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,123 +19,111 @@
 namespace navcal::diagnosis {
 namespace {
 
-/// Causes that are less probable are not worth a line.
+/// Causes that are less probable are not worth a line, but for the leading ones.
 constexpr double kLeastCandidate = 0.01;
+constexpr std::size_t kLeastCandidates = 3;
 
-gap::EffectFinding finding_of(const Cause& cause, double probability, const Eigen::VectorXd& mean,
-                              const Eigen::VectorXd& std) {
+/// A cause of the most probable set.
+struct Member {
+  std::size_t cause;
+  std::vector<gap::Confusion> confused_with;  ///< what could stand in its place
+  double probability = 0;                     ///< of all sets with it or one of those
+  double lead_nats = 0;                       ///< over all sets without
+};
+
+std::vector<double> all_chances(const LayoutEvidence& evidence) {
+  std::vector<double> chances = evidence.bank.chance_nats;
+  chances.resize(evidence.library.causes.size());
+  return chances;
+}
+
+Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
+  const auto& sets = evidence.found.sets;
+  const CauseSet& best = sets.front().causes;
+  std::vector<std::size_t> alike{cause};
+  Member member{cause, {}, 0, std::numeric_limits<double>::infinity()};
+  for (const ScoredSet& one : sets) {
+    const double behind_nats = sets.front().log_odds - one.log_odds;
+    if (behind_nats >= kClass_nats) break;
+    std::vector<std::size_t> differing;
+    std::set_symmetric_difference(one.causes.begin(), one.causes.end(), best.begin(), best.end(),
+                                  std::back_inserter(differing));
+    if (one.causes.size() != best.size() || differing.size() != 2 ||
+        std::find(differing.begin(), differing.end(), cause) == differing.end())
+      continue;
+    const std::size_t other = differing.front() == cause ? differing.back() : differing.front();
+    alike.push_back(other);
+    member.confused_with.push_back(
+        {evidence.library.causes[other].words(), evidence.library.causes[cause].manoeuvre, behind_nats});
+  }
+  for (const ScoredSet& one : sets) {
+    const bool has =
+        std::find_first_of(one.causes.begin(), one.causes.end(), alike.begin(), alike.end()) != one.causes.end();
+    if (has) {
+      member.probability += one.probability;
+    } else {
+      member.lead_nats = std::min(member.lead_nats, sets.front().log_odds - one.log_odds);
+    }
+  }
+  return member;
+}
+
+gap::EffectFinding finding_of(const Cause& cause, double probability, const SetEvidence::Posterior& estimate) {
   gap::EffectFinding finding{};
   finding.name = cause.name;
   finding.of = cause.of;
   finding.probability = std::min(probability, 1.0);  // a sum of rounded shares
   finding.manoeuvre = cause.manoeuvre;
   for (const CauseParameter& parameter : cause.parameters) {
+    const auto at = std::find(estimate.columns.begin(), estimate.columns.end(), parameter.column);
+    const auto i = at - estimate.columns.begin();
     finding.parameters.push_back(
-        {parameter.name, mean[parameter.column] / parameter.per_unit, std[parameter.column] / parameter.per_unit});
+        {parameter.name, estimate.mean[i] / parameter.per_unit, estimate.std(i) / parameter.per_unit});
   }
   return finding;
 }
 
-/// The probability of each cause is that of all sets which it belongs to.
-std::map<std::size_t, double> probabilities_of_causes(const CauseSearchResult& found) {
-  std::map<std::size_t, double> probabilities;
-  for (const ScoredSet& one : found.sets) {
-    for (const std::size_t cause : one.causes) probabilities[cause] += one.probability;
-  }
-  return probabilities;
-}
-
-/// Probability of no cause, and of all sets but that and the most probable one.
-std::pair<double, double> none_and_rivals(const CauseSearchResult& found) {
-  double none = 0, rivals = 0;
-  for (const ScoredSet& one : found.sets) {
-    if (one.causes.empty()) {
-      none = one.probability;
-    } else if (one.causes != found.sets.front().causes) {
-      rivals += one.probability;
-    }
-  }
-  return {none, rivals};
-}
-
-std::string names_of(const CauseSet& causes, const CauseLibrary& library) {
+std::string names_of(const std::vector<gap::EffectFinding>& effects) {
   std::vector<std::string> words;
-  for (const std::size_t cause : causes) words.push_back(library.causes[cause].words());
+  for (const gap::EffectFinding& one : effects) {
+    words.push_back(one.of.empty() ? one.name : one.name + " of " + one.of);
+    for (const gap::Confusion& other : one.confused_with) words.back() += " or " + other.name;
+  }
   return fmt::format("{}", fmt::join(words, " and "));
 }
 
-/// How many standard errors the clearest parameter of a cause is from zero.
-double presence_sigma(const Cause& cause, const CauseSearchResult& found) {
-  double most = 0;
-  for (const Eigen::Index column : cause.columns()) {
-    most = std::max(most, std::abs(found.mean[column]) / found.std[column]);
-  }
-  return most;
-}
-
-/// Whether the estimate of a parameter is where the recording was linearised: elsewhere its evidence says nothing.
-bool has_settled(const CauseParameter& parameter, const CauseSearchResult& found) {
-  const Eigen::Index column = parameter.column;
-  const double away = std::abs(found.mean[column] - found.best.at[column]);
-  return away <= std::max(kSettledWithin * parameter.typical * parameter.per_unit,
-                          kSettledWithin_sigma * found.std[column]);
-}
-
-/// Why the most probable set is not named although it is probable; empty where nothing speaks against it.
-std::optional<std::string> objection(const LayoutEvidence& evidence, double rivals,
-                                     const std::vector<gap::WhereEntry>& louder_after) {
-  const ScoredSet& best = evidence.found.sets.front();
-  const std::string names = names_of(best.causes, evidence.library);
-  if (best.probability < kNamedFrom || rivals > kMostRivals) {
-    return fmt::format("the most probable cause, {}, has a probability of {:.2f} only", names, best.probability);
-  }
-  if (!louder_after.empty()) {
-    return fmt::format("{} leaves {} louder than nominal", names, louder_after.front().channel);
-  }
-  // Evidence compares sets. Where none of them describes the recording, the best one is no better than a bad
-  // guess.
-  const double misfit = misfit_of(evidence.found.best, best.log_odds);
-  const Floor nominal = floor_of(evidence.bank.misfits);
-  if (misfit > nominal.limit()) {
+/// Why a cause of the most probable set is not named; empty where nothing speaks against it.
+std::optional<std::string> objection(const LayoutEvidence& evidence, const Member& member, std::size_t place,
+                                     const gap::EffectFinding& finding) {
+  const Cause& cause = evidence.library.causes[member.cause];
+  const double chance_nats = all_chances(evidence)[member.cause];
+  if (member.lead_nats < kNamed_nats + chance_nats) {
     return fmt::format(
-        "with {} the recording departs by {:.1f} times its noise power, nominal ones by {:.1f} times", names,
-        misfit, nominal.mean);
+        "the most probable cause, {}, leads by {:.0f} nats only, and by {:.0f} in nominal recordings",
+        cause.words(), member.lead_nats, chance_nats);
   }
-  for (const std::size_t cause : best.causes) {
-    if (presence_sigma(evidence.library.causes[cause], evidence.found) < kLeastPresence_sigma) {
-      return fmt::format("the strength of {} cannot be told from zero", evidence.library.causes[cause].words());
-    }
-    for (const CauseParameter& parameter : evidence.library.causes[cause].parameters) {
-      if (!has_settled(parameter, evidence.found)) {
-        return fmt::format("the fit with {} does not settle", evidence.library.causes[cause].words());
-      }
-      const double strength =
-          std::abs(evidence.found.mean[parameter.column]) / (parameter.typical * parameter.per_unit);
-      if (strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical) {
-        return fmt::format("{} would have {:.0f} times its typical strength", names, strength);
-      }
-    }
+  double presence = 0;
+  for (std::size_t i = 0; i < cause.parameters.size(); ++i) {
+    const CauseParameter& parameter = cause.parameters[i];
+    const gap::EffectParameterEstimate& estimate = finding.parameters[i];
+    presence = std::max(presence, std::abs(estimate.value) / estimate.std_error);
+    const double strength = std::abs(estimate.value) / parameter.typical;
+    if (strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical)
+      return fmt::format("{} would have {:.0f} times its typical strength", cause.words(), strength);
   }
-  double gain_nats = 0;
-  for (const ExplainedWindows& held : evidence.held_out) gain_nats += held.gain_nats;
-  if (!evidence.held_out.empty() && gain_nats < kHoldoutGain_nats) {
-    return fmt::format("{} does not improve the held-out recordings ({:+.1f} nats)", names, gain_nats);
+  if (presence < kLeastPresence_sigma)
+    return fmt::format("the strength of {} cannot be told from zero", cause.words());
+  double gain_nats = 0, least_nats = 0;
+  for (const ExplainedRecording& one : evidence.held_out) {
+    const double here_nats = one.member_nats.empty() ? one.gain_nats : one.member_nats[place];
+    gain_nats += here_nats;
+    least_nats = std::min(least_nats, here_nats);
+  }
+  if (!evidence.held_out.empty() && (gain_nats < kHoldoutGain_nats || least_nats < kHoldoutLoss_nats)) {
+    return fmt::format("{} does not improve the held-out recordings ({:+.1f} nats, {:+.1f} in the worst one)",
+                       cause.words(), gain_nats, least_nats);
   }
   return std::nullopt;
-}
-
-/// Causes that the recording cannot tell from those named.
-void add_confusions(const SetEvidence& of_sets, const CauseLibrary& library, const CauseSet& named,
-                    std::vector<gap::EffectFinding>& effects) {
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    for (std::size_t other = 0; other < library.causes.size(); ++other) {
-      if (std::binary_search(named.begin(), named.end(), other)) continue;
-      const double apart_nats = of_sets.separation(named[i], {other});
-      if (apart_nats >= kObservable_nats) continue;
-      effects[i].confused_with.push_back(
-          {library.causes[other].words(), library.causes[named[i]].manoeuvre, apart_nats});
-    }
-  }
 }
 
 void say_unknown(const std::string& reason, const std::vector<gap::WhereEntry>& louder, gap::Diagnosis& answer) {
@@ -147,43 +136,104 @@ void say_unknown(const std::string& reason, const std::vector<gap::WhereEntry>& 
   }
 }
 
+/// Without a floor: what leads may be what the layout leaves out of every vehicle.
+void say_unconfirmed(gap::Diagnosis& answer) {
+  const gap::EffectFinding& leading = answer.candidates.front();
+  std::vector<std::string> sizes;
+  for (const gap::EffectParameterEstimate& one : leading.parameters)
+    sizes.push_back(fmt::format("{} {:.3g} +- {:.1g}", one.name, one.value, one.std_error));
+  answer.verdict = gap::Verdict::unknown;
+  answer.effects.clear();
+  answer.sentence =
+      fmt::format("Unconfirmed, without nominal recordings (--nominal): the most probable candidate is {}, {}.",
+                  leading.of.empty() ? leading.name : leading.name + " of " + leading.of, fmt::join(sizes, ", "));
+  answer.unexplained.push_back("a gap cannot be told from what the layout leaves out of every vehicle");
+}
+
+void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
+  const SetEvidence of_sets(evidence.found.changes, evidence.library);
+  const CauseSet& best = evidence.found.sets.front().causes;
+  std::map<std::size_t, double> probabilities;
+  for (const ScoredSet& one : evidence.found.sets) {
+    for (const std::size_t cause : one.causes) probabilities[cause] += one.probability;
+  }
+  std::vector<std::size_t> leading;
+  for (const ScoredSet& one : evidence.found.sets) {
+    for (const std::size_t cause : one.causes) {
+      const bool is_there = std::find(leading.begin(), leading.end(), cause) != leading.end();
+      const bool is_worth_a_line = leading.size() < kLeastCandidates || probabilities[cause] >= kLeastCandidate;
+      if (!is_there && is_worth_a_line) leading.push_back(cause);
+    }
+  }
+  for (const std::size_t cause : leading) {
+    const bool is_member = std::binary_search(best.begin(), best.end(), cause);
+    answer.candidates.push_back(finding_of(evidence.library.causes[cause], probabilities[cause],
+                                           of_sets.posterior(is_member ? best : CauseSet{cause})));
+  }
+  std::stable_sort(answer.candidates.begin(), answer.candidates.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+}
+
 }  // namespace
 
 void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
-  const auto& [library, priors, bank, found, held_out] = evidence;
+  const auto& [library, bank, found, after, held_out] = evidence;
   const ScoredSet& best = found.sets.front();
-  const auto probabilities = probabilities_of_causes(found);
-  const SetEvidence of_sets(found.best.linear, library, priors);
-  std::vector<std::pair<double, std::size_t>> order;
-  for (const auto& [cause, probability] : probabilities) order.emplace_back(probability, cause);
-  std::sort(order.rbegin(), order.rend());
-  for (const auto& [probability, cause] : order) {
-    if (probability < kLeastCandidate) break;
-    const auto posterior = of_sets.posterior(best.causes.empty() ? CauseSet{cause} : best.causes);
-    answer.candidates.push_back(finding_of(library.causes[cause], probability, posterior.mean, posterior.std));
+  add_candidates(evidence, answer);
+  std::vector<double> powers;
+  for (const RecordingPower& one : bank.powers) powers.push_back(one.mean_square);
+  const bool has_floor = !powers.empty();
+  const Floor floor = floor_of(powers);
+  const auto louder = has_floor ? louder_channels(after, bank.powers) : std::vector<gap::WhereEntry>{};
+  const bool is_loud = has_floor && after.mean_square > floor.limit(kNominalPowerFactor);
+  double gain_nats = best.log_odds;
+  for (const ScoredSet& one : found.sets) {
+    if (one.causes.empty()) gain_nats -= one.log_odds;
   }
-  const auto louder_after = louder_channels(found.best, bank);
-  const auto [none, rivals] = none_and_rivals(found);
-  const bool is_weak = none > kNoGapBelow && louder_after.empty() && best.probability < kNamedFrom;
-  if (louder_after.empty() && (best.causes.empty() || is_weak)) {
+  double chance_nats = 0;
+  const std::vector<double> chances = all_chances(evidence);
+  for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, chances[cause]);
+  if (louder.empty() && !is_loud && gain_nats < kGap_nats + chance_nats) {
     answer.verdict = gap::Verdict::no_gap;
     answer.where.clear();
-    answer.sentence = "Nothing exceeds what nominal recordings show.";
+    answer.sentence = has_floor ? "Nothing exceeds what nominal recordings show."
+                                : "No effect of the library stands out; without nominal recordings (--nominal) "
+                                  "there is no floor.";
     return;
   }
-  if (best.causes.empty()) return say_unknown("no effect of the library explains it", louder_after, answer);
-  if (const auto reason = objection(evidence, rivals, louder_after)) {
-    return say_unknown(*reason, louder_after, answer);
+  if (best.causes.empty()) return say_unknown("no effect of the library explains it", louder, answer);
+  const auto estimate = SetEvidence(found.changes, library).posterior(best.causes);
+  std::optional<std::string> reason;
+  std::vector<std::string> not_named;
+  for (std::size_t i = 0; i < best.causes.size(); ++i) {
+    const Member member = member_of(evidence, best.causes[i]);
+    gap::EffectFinding finding = finding_of(library.causes[member.cause], member.probability, estimate);
+    finding.confused_with = member.confused_with;
+    if (auto why = objection(evidence, member, i, finding)) {
+      not_named.push_back(*why);
+    } else {
+      answer.effects.push_back(std::move(finding));
+    }
+  }
+  if (!has_floor) return say_unconfirmed(answer);
+  if (answer.effects.empty()) {
+    reason = not_named.front();
+  } else if (!louder.empty()) {
+    reason = fmt::format("{} leaves {} louder than nominal", names_of(answer.effects), louder.front().channel);
+  } else if (is_loud) {
+    reason =
+        fmt::format("with {} the recording departs by {:.2f} times its noise power, nominal ones by {:.2f} times",
+                    names_of(answer.effects), after.mean_square, floor.mean);
+  }
+  if (reason) {
+    answer.effects.clear();
+    return say_unknown(*reason, louder, answer);
   }
   answer.verdict = gap::Verdict::explained;
-  for (const std::size_t cause : best.causes) {
-    answer.effects.push_back(finding_of(library.causes[cause], probabilities.at(cause), found.mean, found.std));
-  }
-  add_confusions(of_sets, library, best.causes, answer.effects);
-  answer.sentence = fmt::format("The gap is explained by {}.", names_of(best.causes, library));
-  if (held_out.empty()) {
+  answer.sentence = fmt::format("The gap is explained by {}.", names_of(answer.effects));
+  for (const std::string& why : not_named) answer.remarks.push_back("not named beside it: " + why);
+  if (held_out.empty())
     answer.remarks.emplace_back("no held-out recording was given (--holdout): the answer is weaker");
-  }
 }
 
 }  // namespace navcal::diagnosis

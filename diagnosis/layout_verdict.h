@@ -12,10 +12,10 @@ namespace navcal::diagnosis {
 /// What a verdict rests on. The parts must outlive it.
 struct LayoutEvidence {
   const CauseLibrary& library;
-  const ColumnPriors& priors;
   const NominalBank& bank;
   const CauseSearchResult& found;
-  std::span<const ExplainedWindows> held_out;  ///< may be none
+  const RecordingPower& after;                   ///< of the recording with the causes found
+  std::span<const ExplainedRecording> held_out;  ///< may be none
 };
 
 /// Writes verdict, sentence, effects, candidates and what stays unexplained (docs/gap.md, "Vehicles with a

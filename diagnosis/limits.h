@@ -10,27 +10,52 @@ namespace navcal::diagnosis {
 using gap::kComplexityPenalty_nats;
 using gap::kComplexityPenaltyPerFurtherEffect_nats;
 using gap::kHoldoutGain_nats;
+using gap::kHoldoutLoss_nats;
 using gap::kLargestStrength;
 using gap::kMemberStrengths;
 using gap::kMostEffects;
-using gap::kMostRivals;
-using gap::kNamedFrom;
-using gap::kNoGapBelow;
-using gap::kObservable_nats;
-using gap::kTolerance;
 
-/// Step of a finite difference, as part of the typical strength: small against it, large against rounding.
-inline constexpr double kEffectStep = 0.01;
-/// Leading sets of each size that are fitted again at their own estimate.
-inline constexpr std::size_t kRefitted = 3;
-/// A figure of a recording (a channel's noise power, the misfit) exceeds that of nominal recordings by chance up
-/// to so many standard deviations of theirs, and by tolerances that they do not show up to this factor.
-inline constexpr double kNominalScatter_sigma = 5, kNominalFactor = 1.5;
+/// Step of a finite difference, as part of the typical strength: small against it, large against rounding. What
+/// cannot be negative is not linear about zero (a dead band, a lag, a dead actuator): its difference takes a
+/// typical strength.
+inline constexpr double kEffectStep = 0.01, kOneSidedStep = 1;
+/// The same of the actuators' delay: several steps of their commands.
+inline constexpr double kDelayStep_s = 0.08;
+/// Passes over the nominal recordings: each is linearised again at the estimate by all of them. The noises are
+/// fitted in the first ones.
+inline constexpr int kNominalRounds = 3, kNoiseRounds = 2;
+/// Nominal recordings that the noises are fitted to; more change them little and take as long again.
+inline constexpr std::size_t kNoiseFrom = 2;
+/// Standard deviation of what is usual in vehicles and between recordings, typical strengths, and the number of
+/// observations that it counts as.
+inline constexpr double kUsualTolerance = 0.1, kToleranceWeight = 2;
+/// Steps of expectation and maximisation for the tolerances, in each pass over the nominal recordings.
+inline constexpr int kToleranceSteps = 8;
+/// A dead or reversed actuator is so in full: standard deviation of its share.
+inline constexpr double kSwitchScatter = 0.05;
+/// Leading single causes that are fitted again at their own estimate, and sets that are because they lead without.
+inline constexpr std::size_t kRefitted = 4, kReconsidered = 4;
+/// A recording has settled where its evidence changes by less, and is given up after so many passes.
+inline constexpr double kSettledWithin_nats = 0.5;
+inline constexpr int kMostSettlings = 5;
+/// A figure of a recording (a channel's noise power) exceeds that of nominal recordings by chance up to so many
+/// standard deviations of theirs, and by tolerances that they do not show up to this factor; the power of all
+/// channels together, which has many more readings, up to the smaller one.
+inline constexpr double kNominalScatter_sigma = 5, kNominalFactor = 2, kNominalPowerFactor = 1.12;
+/// An innovation counts at most so much in the power of its channel: single wild readings are no louder channel.
+inline constexpr double kWild_sigma = 3;
+/// Length of the blocks of time that a closure's interval is drawn from, s: longer than the filter's memory of
+/// most vehicles.
+inline constexpr double kBlock_s = 5;
 
+/// A cause is named where all sets without it, and without those that cannot be told from it, are so many nats
+/// behind, beyond what nominal recordings have for it by chance.
+inline constexpr double kNamed_nats = 15;
+/// Causes are not told apart where one in place of the other costs less.
+inline constexpr double kClass_nats = 5;
+/// A recording has a gap where the best set leads no set by so many nats, beyond the chance of nominal recordings.
+inline constexpr double kGap_nats = 10;
 /// A cause is named only if one of its parameters is so many standard errors from zero.
 inline constexpr double kLeastPresence_sigma = 2;
-/// A fit has not settled if the estimate by its linearisation lies further from the fitted value than so many
-/// typical strengths and so many standard errors.
-inline constexpr double kSettledWithin = 1, kSettledWithin_sigma = 5;
 
 }  // namespace navcal::diagnosis

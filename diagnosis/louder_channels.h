@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "diagnosis/nominal_bank.h"
@@ -9,6 +10,7 @@
 namespace navcal::diagnosis {
 
 /// Channels whose noise power exceeds that of nominal recordings, most first.
-[[nodiscard]] std::vector<gap::WhereEntry> louder_channels(const RecordingFit& fit, const NominalBank& bank);
+[[nodiscard]] std::vector<gap::WhereEntry> louder_channels(const RecordingPower& power,
+                                                           std::span<const RecordingPower> nominal);
 
 }  // namespace navcal::diagnosis

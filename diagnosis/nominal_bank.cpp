@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/nominal_bank.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <random>
+#include <stdexcept>
 
+#include "diagnosis/cause_search.h"
 #include "diagnosis/limits.h"
-#include "identify/data/actuator_inputs.h"
-#include "identify/replay/predicted_readings.h"
 
 namespace navcal::diagnosis {
 
 using identify::kNuisances;
 using identify::RecordedMotion;
 
-double Floor::limit() const { return std::max(mean * kNominalFactor, mean + kNominalScatter_sigma * std); }
+double Floor::limit(double factor) const { return std::max(mean * factor, mean + kNominalScatter_sigma * std); }
 
 Floor floor_of(std::span<const double> of_recordings) {
   if (of_recordings.empty()) return {};
@@ -26,104 +28,159 @@ Floor floor_of(std::span<const double> of_recordings) {
   return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean};
 }
 
-double misfit_of(const RecordingFit& fit, double log_evidence) {
-  return -2 * log_evidence / std::max(fit.readings, 1.0);
-}
+namespace {
 
-void NominalBank::add(const RecordingFit& fit, const CauseLibrary& library, const ColumnPriors& priors) {
-  const SetEvidence evidence(fit.linear, library, priors);
-  Eigen::VectorXd estimate = Eigen::VectorXd::Zero(library.columns());
-  for (std::size_t i = 0; i < library.causes.size(); ++i) {
-    const auto posterior = evidence.posterior({i});
-    for (const Eigen::Index column : library.causes[i].columns()) {
-      // What the data say beyond chance.
-      const double variance = posterior.std[column] * posterior.std[column];
-      const double square = posterior.mean[column] * posterior.mean[column] - variance;
-      estimate[column] = std::sqrt(std::max(square, 0.0));
-    }
-  }
-  estimates.push_back(std::move(estimate));
-  channel_powers.push_back(fit.channel_power);
-  double square = 0;
-  for (const double power : fit.window_power) square += power;
-  powers.push_back(square / std::max(fit.readings, 1.0));
-  misfits.push_back(misfit_of(fit, evidence({})));
-}
+/// As good as zero, and the matrices stay invertible.
+constexpr double kAbsent = 1e-6;
 
-std::vector<RecordedMotion> simulate_nominal(const config::Layout& layout, const CauseLibrary& library,
-                                             const RecordedMotion& recording, const RecordingFit& fit,
-                                             const ColumnPriors& priors, int count, std::uint64_t seed) {
-  std::vector<RecordedMotion> simulated;
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::vector<identify::WindowReading> readings;
-  for (std::size_t c = 0; c < identify::kChannels; ++c) {
-    for (const identify::Reading& reading : recording.channels[c])
-      readings.push_back({static_cast<identify::Channel>(c), reading.time_s, reading.value, reading.std});
-  }
-  const identify::ActuatorInputs inputs(layout, recording);
-  const auto parameters = static_cast<Eigen::Index>(library.parameters.size());
-  for (int k = 0; k < count; ++k) {
-    Eigen::VectorXd draw(library.columns());
-    for (Eigen::Index i = 0; i < draw.size(); ++i) draw[i] = priors.spike[i] * normal(random);
-    Eigen::VectorXd values = draw.head(parameters);
-    for (Eigen::Index i = 0; i < parameters; ++i) {
-      const identify::Parameter& parameter = library.parameters[static_cast<std::size_t>(i)];
-      const bool is_effect = static_cast<std::size_t>(i) >= library.layout_numbers;
-      if (is_effect && parameter.low == 0) values[i] = std::abs(values[i]);
-      values[i] = std::clamp(values[i] + parameter.prior, parameter.low, parameter.high);
-    }
-    const config::Layout drawn = identify::with_values(layout, library.parameters, values);
-    const identify::Calibration calibration = draw.tail<kNuisances>();
-    const auto steps = static_cast<std::size_t>(recording.duration_s / identify::ReplayedMotion::kStep_s);
-    const auto motion =
-        identify::replay(sim::LayoutVehicle(drawn), inputs.trajectory(drawn),
-                         calibration[static_cast<Eigen::Index>(identify::Nuisance::actuator_delay)], 0, steps,
-                         fit.states.front().front(), recording.tilt_lag_s);
-    if (!motion) continue;
-    std::vector<identify::WindowReading> inside = readings;
-    const double end_s = identify::ReplayedMotion::kStep_s * static_cast<double>(steps);
-    std::erase_if(inside, [&](const auto& reading) { return reading.time_s >= end_s; });
-    RecordedMotion null = recording;
-    for (auto& channel : null.channels) channel.clear();
-    const Eigen::VectorXd predicted = identify::PredictedReadings(null)(*motion, inside, calibration);
-    for (std::size_t i = 0; i < inside.size(); ++i) {
-      const double value = predicted[static_cast<Eigen::Index>(i)] + inside[i].std * normal(random);
-      null.channels[static_cast<std::size_t>(inside[i].channel)].push_back(
-          {inside[i].time_s, value, inside[i].std});
-    }
-    null.name = "simulated nominal recording";
-    simulated.push_back(std::move(null));
-  }
-  return simulated;
-}
+/// Columns of the causes of one name with their typical values: they have a tolerance in common.
+struct Alike {
+  std::vector<Eigen::Index> columns;
+  std::vector<double> typical;
+};
 
-ColumnPriors tolerances_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds) {
-  ColumnPriors priors{Eigen::VectorXd::Zero(library.columns()), Eigen::VectorXd::Zero(library.columns())};
-  for (std::size_t i = 0; i < library.parameters.size(); ++i)
-    priors.spike[static_cast<Eigen::Index>(i)] = library.parameters[i].prior_std;
-  priors.spike.tail<kNuisances>() = nuisance_stds;
-  for (const Cause& cause : library.causes) {
-    for (const CauseParameter& parameter : cause.parameters)
-      priors.typical[parameter.column] = parameter.typical * parameter.per_unit;
-  }
-  return priors;
-}
-
-ColumnPriors widened(ColumnPriors priors, const CauseLibrary& library, const NominalBank& bank) {
-  if (bank.size() == 0) return priors;
+std::vector<Alike> alike_in(const CauseLibrary& library) {
+  std::map<std::string, Alike> by_name;
   for (const Cause& cause : library.causes) {
     for (const CauseParameter& parameter : cause.parameters) {
-      double square = 0;
-      for (const Eigen::VectorXd& estimate : bank.estimates)
-        square += estimate[parameter.column] * estimate[parameter.column];
-      // Few recordings tell a scatter badly: one standard error of the mean square is added.
-      const double n = static_cast<double>(bank.size());
-      const double scatter = std::sqrt(square / n * (1 + std::sqrt(2 / n)));
-      priors.spike[parameter.column] = std::max(priors.spike[parameter.column], scatter);
+      if (parameter.is_switch()) continue;
+      Alike& alike = by_name[cause.name];
+      alike.columns.push_back(parameter.column);
+      alike.typical.push_back(parameter.typical * parameter.per_unit);
     }
   }
-  return priors;
+  std::vector<Alike> all;
+  for (auto& [name, alike] : by_name) all.push_back(std::move(alike));
+  return all;
+}
+
+/// By expected squares of the columns, one vector for each time that they were drawn.
+void set_tolerances(const std::vector<Alike>& groups, std::span<const Eigen::VectorXd> squares,
+                    Eigen::VectorXd& scatter) {
+  for (const Alike& group : groups) {
+    double sum = kToleranceWeight * kUsualTolerance * kUsualTolerance, weight = kToleranceWeight;
+    for (const Eigen::VectorXd& one : squares) {
+      for (std::size_t i = 0; i < group.columns.size(); ++i, ++weight)
+        sum += one[group.columns[i]] / (group.typical[i] * group.typical[i]);
+    }
+    const double tolerance = std::sqrt(sum / weight);
+    for (std::size_t i = 0; i < group.columns.size(); ++i)
+      scatter[group.columns[i]] = tolerance * group.typical[i];
+  }
+}
+
+constexpr const char* kCannotFollow = ": the layout cannot follow it: is it this vehicle's?";
+
+/// Sum of the recordings' likelihoods of what they share.
+Likelihood shared_by(std::span<const Likelihood> recordings, const ColumnScatter& scatter) {
+  const Eigen::MatrixXd root = scatter.session.asDiagonal();
+  Likelihood sum = recordings.front().blurred(root);
+  for (const Likelihood& one : recordings.subspan(1)) sum += one.blurred(root);
+  return sum;
+}
+
+}  // namespace
+
+ColumnScatter scatter_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds) {
+  const Eigen::Index columns = library.columns();
+  ColumnScatter scatter{Eigen::VectorXd::Zero(columns), Eigen::VectorXd::Zero(columns)};
+  for (std::size_t i = 0; i < library.layout_numbers; ++i)
+    scatter.vehicle[static_cast<Eigen::Index>(i)] = library.parameters[i].prior_std;
+  scatter.session.tail<kNuisances>() = nuisance_stds;
+  for (const Cause& cause : library.causes) {
+    for (const CauseParameter& parameter : cause.parameters)
+      if (parameter.is_switch()) scatter.session[parameter.column] = kAbsent;
+  }
+  for (Eigen::VectorXd* const one : {&scatter.vehicle, &scatter.session})
+    set_tolerances(alike_in(library), {}, *one);
+  return scatter;
+}
+
+ColumnScatter scatter_among(const CauseLibrary& library, std::span<const Likelihood> recordings,
+                            ColumnScatter scatter) {
+  const std::vector<Alike> groups = alike_in(library);
+  for (int step = 0; step < kToleranceSteps; ++step) {
+    const Likelihood shared = shared_by(recordings, scatter);
+    const Eigen::MatrixXd of_vehicle = covariance_of(shared.information, scatter.vehicle);
+    const Eigen::VectorXd vehicle = of_vehicle * shared.score;
+    std::vector<Eigen::VectorXd> squares;
+    for (const Likelihood& one : recordings) {
+      const Eigen::MatrixXd of_session = covariance_of(one.information, scatter.session);
+      const Eigen::MatrixXd through = of_session * one.information;
+      const Eigen::VectorXd session = of_session * one.score - through * vehicle;
+      squares.push_back(of_session.diagonal() + session.cwiseAbs2() +
+                        (through * of_vehicle).cwiseProduct(through).rowwise().sum());
+    }
+    set_tolerances(groups, squares, scatter.session);
+    const std::array<Eigen::VectorXd, 1> of_one{of_vehicle.diagonal() + vehicle.cwiseAbs2()};
+    set_tolerances(groups, of_one, scatter.vehicle);
+  }
+  return scatter;
+}
+
+JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatter& scatter) {
+  const Eigen::Index columns = scatter.vehicle.size();
+  JointPrior prior{Eigen::VectorXd::Zero(columns), {}};
+  Eigen::MatrixXd covariance = scatter.vehicle.cwiseAbs2().asDiagonal();
+  if (!recordings.empty()) {
+    const Likelihood shared = shared_by(recordings, scatter);
+    covariance = covariance_of(shared.information, scatter.vehicle);
+    prior.mean = covariance * shared.score;
+  }
+  covariance.diagonal() += scatter.session.cwiseAbs2();
+  prior.root = covariance.llt().matrixL();
+  return prior;
+}
+
+NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
+                    std::span<const RecordedMotion> recordings, const RecordedMotion& alone, unsigned threads,
+                    const Progress& progress) {
+  NominalBank bank;
+  const std::span<const RecordedMotion> all = recordings.empty() ? std::span(&alone, 1) : recordings;
+  std::vector<std::unique_ptr<FittedRecording>> followed;
+  for (const RecordedMotion& recording : all)
+    followed.push_back(std::make_unique<FittedRecording>(layout, library, recording, bank.noises, threads));
+  std::vector<Eigen::VectorXd> at(all.size(), Eigen::VectorXd::Zero(library.columns()));
+  std::vector<Likelihood> linear(all.size());
+  ColumnScatter scatter = scatter_of(library, identify::nuisance_stds(alone));
+  for (int round = 0; round < kNominalRounds; ++round) {
+    progress(static_cast<double>(round) / kNominalRounds);
+    if (round < kNoiseRounds) {
+      std::vector<identify::FilterPass> passes;
+      std::vector<identify::FollowedRecording> of_noise;
+      for (std::size_t i = 0; i < std::min(all.size(), kNoiseFrom); ++i) {
+        auto pass = followed[i]->follow(at[i]);
+        if (!pass) throw std::invalid_argument(all[i].name + kCannotFollow);
+        passes.push_back(std::move(*pass));
+      }
+      for (std::size_t i = 0; i < passes.size(); ++i) of_noise.push_back({&followed[i]->filter(), &passes[i]});
+      bank.noises = identify::fit_noises(of_noise, bank.noises, true, threads).noises;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      followed[i]->filter().set_noises(bank.noises);
+      auto fit = followed[i]->fit(at[i]);
+      if (!fit) throw std::invalid_argument(all[i].name + kCannotFollow);
+      linear[i] = std::move(fit->linear);
+    }
+    // A recording alone may have a gap: it tells nothing of the vehicle without one.
+    if (recordings.empty()) {
+      bank.prior = prior_from({}, scatter);
+      return bank;
+    }
+    scatter = scatter_among(library, linear, scatter);
+    bank.prior = prior_from(linear, scatter);
+    for (std::size_t i = 0; i < all.size(); ++i) at[i] = bank.prior.posterior_mean(linear[i]);
+  }
+  bank.chance_nats.assign(library.causes.size(), 0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<Likelihood> others = linear;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const SetEvidence evidence(prior_from(others, scatter).of_changes(linear[i]), library);
+    for (std::size_t cause = 0; cause < library.causes.size(); ++cause)
+      bank.chance_nats[cause] = std::max(bank.chance_nats[cause], evidence.gain({cause}));
+    if (auto power = followed[i]->power(at[i])) bank.powers.push_back(std::move(*power));
+  }
+  return bank;
 }
 
 }  // namespace navcal::diagnosis

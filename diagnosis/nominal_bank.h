@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "diagnosis/cause_search.h"
+#include "diagnosis/recording_fit.h"
 
 namespace navcal::diagnosis {
 
@@ -14,40 +13,42 @@ namespace navcal::diagnosis {
 struct Floor {
   double mean = 1, std = 0;
 
-  /// Above it, a recording is not like the nominal ones.
-  [[nodiscard]] double limit() const;
+  /// Above it, a recording is not like the nominal ones. `factor`: for tolerances that they do not show.
+  [[nodiscard]] double limit(double factor) const;
 };
 /// 1 +- 0 where there is no recording; a tenth of the mean as the deviation where there is one only.
 [[nodiscard]] Floor floor_of(std::span<const double> of_recordings);
 
-/// What nominal recordings show: the floor of a diagnosis.
-struct NominalBank {
-  /// Estimates of every single cause's columns as if it were the cause, one vector for each recording.
-  std::vector<Eigen::VectorXd> estimates;
-  std::vector<std::array<double, identify::kChannels>> channel_powers;
-  std::vector<double> powers;  ///< mean square of all whitened residuals
-  /// -2/n of the log evidence of no cause, with n readings: 1 where tolerances and noise explain the recording.
-  std::vector<double> misfits;
+/// Standard deviations of all columns: between vehicles of the layout, and between recordings of one vehicle.
+struct ColumnScatter {
+  Eigen::VectorXd vehicle, session;
+};
+/// By the library: usual tolerances for all that can be a cause, the layout's standard errors, and the priors of
+/// the other nuisances, which are of a session.
+[[nodiscard]] ColumnScatter scatter_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds);
+/// With a tolerance for the causes of each name, for the vehicle and for its sessions, that makes the recordings
+/// of one vehicle likely; `scatter`: begin of the search.
+[[nodiscard]] ColumnScatter scatter_among(const CauseLibrary& library, std::span<const Likelihood> recordings,
+                                          ColumnScatter scatter);
 
-  [[nodiscard]] std::size_t size() const { return powers.size(); }
-  void add(const RecordingFit& fit, const CauseLibrary& library, const ColumnPriors& priors);
+/// Prior of another recording of a vehicle that has these ones.
+[[nodiscard]] JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatter& scatter);
+
+/// Nominal recordings of a vehicle: the floor of a diagnosis.
+struct NominalBank {
+  identify::FilterNoises noises;
+  JointPrior prior;                    ///< of another recording
+  std::vector<RecordingPower> powers;  ///< of each one
+  /// For each cause, the largest log evidence that a nominal recording has for it when the others are its prior,
+  /// nats.
+  std::vector<double> chance_nats;
 };
 
-/// -2/n of a log evidence in nats, with n readings of the fit.
-[[nodiscard]] double misfit_of(const RecordingFit& fit, double log_evidence);
-
-/// Simulates the recording `count` times with the layout within its tolerances: the recorded positions of the
-/// actuators, the recorded times of the readings, and noise as stated. Every number that is uncertain, every
-/// effect and every error of an instrument departs by a normal deviate of its tolerance. A motion that leaves all
-/// bounds is left out.
-[[nodiscard]] std::vector<identify::RecordedMotion> simulate_nominal(
-    const config::Layout& layout, const CauseLibrary& library, const identify::RecordedMotion& recording,
-    const RecordingFit& fit, const ColumnPriors& priors, int count, std::uint64_t seed);
-
-/// Priors of a library as a fit has them: those of its parameters, and these of the nuisances
-/// (FittedRecording::nuisance_stds()).
-[[nodiscard]] ColumnPriors tolerances_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds);
-/// The same, as wide as the bank's recordings scatter.
-[[nodiscard]] ColumnPriors widened(ColumnPriors priors, const CauseLibrary& library, const NominalBank& bank);
+/// Throws std::invalid_argument in words. `recordings` may be empty: then the noises are those of `alone`, the
+/// prior has the tolerances, and there is no floor.
+[[nodiscard]] NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
+                                  std::span<const identify::RecordedMotion> recordings,
+                                  const identify::RecordedMotion& alone, unsigned threads,
+                                  const Progress& progress);
 
 }  // namespace navcal::diagnosis

@@ -4,79 +4,58 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "diagnosis/causes.h"
-#include "identify/fit/fit_problem.h"
+#include "diagnosis/likelihood.h"
+#include "identify/filter/noise_fit.h"
 
 namespace navcal::diagnosis {
-
-/// Whitened residuals of one recording as a linear function of the columns of a library (CauseLibrary::columns()):
-///   |r(x)|^2 = power - 2 score . x + x . gram x   for departures x from the nominal vehicle and perfect
-///   instruments.
-/// States of the vehicle are eliminated. The priors are not in it.
-struct LinearRecording {
-  Eigen::MatrixXd gram;
-  Eigen::VectorXd score;
-  double power = 0;
-
-  /// The same about other departures: r(x + at).
-  [[nodiscard]] LinearRecording about(const Eigen::VectorXd& at) const;
-};
-
-/// One recording fitted by the replay of a layout.
-struct RecordingFit {
-  LinearRecording linear;
-  Eigen::VectorXd at;  ///< departures that were fitted
-  std::vector<std::vector<identify::StateVector>> states;
-  double readings = 0;
-  /// Mean square of the whitened residuals of each channel; negative where it has no reading.
-  std::array<double, identify::kChannels> channel_power{};
-  std::vector<double> window_power;     ///< sums of squares
-  std::vector<double> window_readings;  ///< readings behind them
-};
-
-/// Prior of a column during a fit, instead of that of the library. The mean of a nuisance's prior is zero.
-struct ParameterPrior {
-  Eigen::Index column;
-  double mean, std;
-};
 
 /// Called with 0 to 1; it may throw to end the work.
 using Progress = std::function<void(double)>;
 
-/// A recording with the layout that replays it. The recording and the library must outlive it.
+/// A recording linearised about some departures from the nominal vehicle and perfect instruments.
+struct RecordingFit {
+  Likelihood linear;   ///< of departures from the nominal vehicle (CauseLibrary::columns())
+  Eigen::VectorXd at;  ///< where it was linearised
+};
+
+/// White innovations of a recording.
+struct RecordingPower {
+  double mean_square = 1;
+  /// Of each channel; negative where it has no reading.
+  std::array<double, identify::kChannels> of_channel{};
+  std::array<double, identify::kChannels> readings_of_channel{};
+  std::vector<double> of_block;  ///< sums of squares of blocks of time
+  std::vector<double> readings;  ///< behind them
+};
+
+/// A recording with the filter that follows it. The recording and the library must outlive it.
 class FittedRecording {
  public:
-  /// Throws std::invalid_argument in words when commands or readings are missing.
+  /// Throws std::invalid_argument in words when commands or readings are missing, and where the layout cannot
+  /// follow the recording.
   FittedRecording(const config::Layout& layout, const CauseLibrary& library,
-                  const std::vector<identify::RecordedMotion>& one_recording, const identify::NoiseModel& noise,
-                  const identify::FitSettings& settings);
+                  const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
+                  unsigned threads);
 
-  /// Fits the uncertain numbers of the layout, the parameters of `priors`, nuisances and states, beginning at
-  /// `from` where it is given, and linearises there about all columns. The other effects are zero. Throws
-  /// identify::UnboundedReplay.
-  [[nodiscard]] RecordingFit fit(const std::vector<ParameterPrior>& priors, const RecordingFit* from,
-                                 const Progress& progress) const;
-  /// Standard deviations of the nuisances' priors. Errors of instruments that can be a cause are within tolerance:
-  /// if a fit could take any of them, it would mend a wrong layout with them and end far from the vehicle.
-  [[nodiscard]] const identify::Calibration& nuisance_stds() const { return nuisance_stds_; }
-  [[nodiscard]] const identify::RecordedMotion& recording() const { return recordings_.front(); }
-  [[nodiscard]] std::vector<std::string> oddities() const;
-  /// Noise of the residuals of a fit.
-  [[nodiscard]] identify::NoiseModel noise_of(const RecordingFit& fit) const;
+  /// nullopt: a vehicle with these departures could not have moved so. Departures beyond a bound are at the bound.
+  [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const;
+  [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const;
+  [[nodiscard]] std::optional<identify::FilterPass> follow(const Eigen::VectorXd& at) const;
+  [[nodiscard]] identify::FilteredReplay& filter() { return filter_; }
+  [[nodiscard]] const identify::FilteredReplay& filter() const { return filter_; }
 
  private:
-  [[nodiscard]] identify::FitProblem problem_with(std::vector<identify::Parameter> parameters,
-                                                  const identify::Calibration& nuisance_stds) const;
-  [[nodiscard]] identify::Unknowns unknowns_of(const RecordingFit& fit) const;
+  [[nodiscard]] Eigen::VectorXd values_at(const Eigen::VectorXd& at) const;
 
-  const config::Layout& layout_;
   const CauseLibrary& library_;
-  const std::vector<identify::RecordedMotion>& recordings_;
-  identify::NoiseModel noise_;
-  identify::FitSettings settings_;
-  identify::Calibration nuisance_stds_;
+  identify::FilteredReplay filter_;
+  std::vector<identify::FilterColumn> columns_;
 };
 
 }  // namespace navcal::diagnosis

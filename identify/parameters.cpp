@@ -62,6 +62,8 @@ Parameter parameter_of(const config::LayoutUncertainty& about, const config::Lay
     constexpr double kLeastPart = 0.01;
     parameter.low = std::max(parameter.low, kLeastPart * parameter.prior);
   }
+  // Damping takes energy, also where the file states none.
+  if (is_of_diagonal && about.key.starts_with("damping.")) parameter.low = std::max(parameter.low, 0.0);
   return parameter;
 }
 

@@ -17,7 +17,7 @@ IdentifyJson before_after_json(const identify::BeforeAfter& rms) {
 std::string identify_json(const identify::Identification& found) {
   IdentifyJson parameters = IdentifyJson::object(), directions = IdentifyJson::array(),
                manoeuvres = IdentifyJson::array(), channels = IdentifyJson::object(),
-               nuisances = IdentifyJson::array();
+               nuisances = IdentifyJson::array(), disturbances = IdentifyJson::object();
   for (const auto& one : found.parameters) {
     parameters[one.parameter.name] = {{"value", one.value},
                                       {"std", one.std},
@@ -47,6 +47,12 @@ std::string identify_json(const identify::Identification& found) {
                          {"value", nuisance.value},
                          {"std", nuisance.std}});
   }
+  for (const auto& of : found.disturbances) {
+    disturbances[std::string(of.axis)] = {{"coloured", of.coloured},
+                                          {"white", of.white},
+                                          {"unit", of.unit},
+                                          {"share", of.share ? IdentifyJson(*of.share) : IdentifyJson()}};
+  }
   const IdentifyJson json{{"parameters", parameters},
                           {"directions", directions},
                           {"held_out", found.held_out ? before_after_json(*found.held_out) : IdentifyJson()},
@@ -54,6 +60,9 @@ std::string identify_json(const identify::Identification& found) {
                           {"manoeuvres", manoeuvres},
                           {"channels", channels},
                           {"nuisances", nuisances},
+                          {"disturbances", disturbances},
+                          {"disturbance_tau_s", found.disturbance_tau_s},
+                          {"left_out", found.left_out},
                           {"model_error", found.model_error},
                           {"seconds", found.seconds},
                           {"iterations", found.iterations},

@@ -69,12 +69,14 @@ std::string identify_page(const identify::Identification& found) {
   for (const auto& direction : found.directions) page.paragraph(direction.words);
   if (!found.manoeuvres.empty()) page.section("What would tell more");
   for (const auto& advice : found.manoeuvres) page.paragraph(manoeuvre_sentence(advice));
+  page.section("Unknown forces");
+  for (const auto& of : found.disturbances) page.paragraph(disturbance_phrase(of));
   page.section("Residuals");
   std::vector<std::vector<std::string>> channels;
   for (const auto& fit : found.channels)
     channels.push_back({std::string(identify::describe(fit.channel).name), fmt::format("{}", fit.readings),
                         fmt::format("{:.2f}", fit.noise_scale), fmt::format("{:.2f}", fit.correlation)});
-  page.table({"channel", "readings", "residuals over stated noise", "correlation of neighbours"}, channels);
+  page.table({"channel", "readings", "noise over stated noise", "correlation of neighbours"}, channels);
   if (!found.nuisances.empty()) {
     page.section("Instruments, current and delays");
     std::vector<std::vector<std::string>> nuisances;

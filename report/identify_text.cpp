@@ -18,8 +18,13 @@ std::vector<std::string> identify_row(const identify::IdentifiedParameter& one, 
 }
 
 std::string rms_sentence(std::string_view what, const identify::BeforeAfter& rms) {
-  return fmt::format("{}: whitened residuals {:.3f} with the numbers of the file, {:.3f} with the fitted ones",
+  return fmt::format("{}: whitened innovations {:.3f} with the numbers of the file, {:.3f} with the fitted ones",
                      what, rms.before, rms.after);
+}
+
+std::string disturbance_phrase(const identify::DisturbanceFit& of) {
+  return fmt::format("{:.2g} {} in {}{}", of.coloured, of.unit, of.axis,
+                     of.share ? fmt::format(", {:.0f} % of what the actuators give", 100 * *of.share) : "");
 }
 
 std::string manoeuvre_sentence(const identify::ManoeuvreAdvice& advice) {
@@ -43,6 +48,8 @@ std::string identify_text(const identify::Identification& found) {
   }
   out += '\n' + rms_sentence("these recordings", found.fitted) + '\n';
   if (found.held_out) out += rms_sentence("held-out recordings", *found.held_out) + '\n';
+  out += fmt::format("\nunknown forces that last for {:.0f} s, over mass:\n", found.disturbance_tau_s);
+  for (const auto& of : found.disturbances) out += "  " + disturbance_phrase(of) + '\n';
   if (!found.directions.empty()) out += "\nwhat the recordings do not tell:\n";
   for (const auto& direction : found.directions) out += "  " + direction.words + '\n';
   if (!found.manoeuvres.empty()) out += "\nwhat would tell more:\n";

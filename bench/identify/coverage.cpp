@@ -17,7 +17,7 @@ namespace {
 using namespace navcal::identify;
 
 Estimate fit(const VehicleCase& of, const std::vector<RecordedMotion>& recordings) {
-  FitProblem problem(of.prior, uncertain_parameters(of.prior), recordings, {});
+  PredictionErrorProblem problem(of.prior, uncertain_parameters(of.prior), recordings, {});
   return estimate(problem, [](auto, auto) {});
 }
 
@@ -53,14 +53,14 @@ int main(int argc, char** argv) {
                 fits[0].model_error);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      const double error = (fits[0].unknowns.parameters[at] - drawn.truth[at]) / fits[0].stds[at];
+      const double error = (fits[0].unknowns[at] - drawn.truth[at]) / fits[0].stds[at];
       errors.push_back(error);
       each[i].push_back(error);
       reduced[i].push_back(fits[0].stds[at] / parameters[i].prior_std);
       if (reduced[i].back() < 0.5) told.push_back(error);
       for (std::size_t a = 0; a < fits.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
-          const double apart = fits[a].unknowns.parameters[at] - fits[b].unknowns.parameters[at];
+          const double apart = fits[a].unknowns[at] - fits[b].unknowns[at];
           differences.push_back(apart / std::hypot(fits[a].stds[at], fits[b].stds[at]));
           sums.push_back(apart / std::max(fits[a].stds[at], fits[b].stds[at]));
         }

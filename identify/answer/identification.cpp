@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace navcal::identify {
@@ -12,67 +15,112 @@ namespace {
 
 constexpr double kFarFromPrior = 4;  ///< standard deviations of the prior
 constexpr double kPoorFit = 3;       ///< residuals over noise
-constexpr double kLate = 0.06;       ///< s: three standard deviations of the delay's prior
+constexpr double kLate = 0.06;       ///< s
+constexpr double kApart_sigma = 3;   ///< of two starts
 constexpr double kNoBetter = 0.999;  ///< held-out residuals after over before
 constexpr double kFewPerChannel = 20;
+/// Of readings, s. Filtered or interpolated ones say less than their number: what they call the vehicle's is then
+/// not what one reading a second says, and the thinner ones count.
+constexpr std::array kIntervals_s{0.3, 1.0, 3.0};
+constexpr double kContradicted = 2.5;  ///< contradiction() of chance: 1 +- 0.3 for twenty numbers
 
-double rms_of(const std::vector<std::vector<Eigen::VectorXd>>& residuals) {
+using Parameters = PredictionErrorProblem::Parameters;
+
+double rms_of(const PredictionErrorProblem::Point& point) {
   double sum = 0, n = 0;
-  for (const auto& windows : residuals) {
-    for (const auto& window : windows) {
-      sum += window.squaredNorm();
-      n += static_cast<double>(window.size());
-    }
+  for (const FilterPass& pass : point.passes) {
+    sum += pass.power();
+    n += static_cast<double>(pass.readings.size());
   }
-  return n > 0 ? std::sqrt(sum / n) : 0;
+  return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::infinity();
 }
 
-/// Residuals with these parameters, the nuisances and states fitted to them.
-double rms_with(FitProblem& problem, const NoiseModel& noise, const Eigen::VectorXd& parameters,
+/// Innovations with these parameters, the nuisances fitted to them.
+double rms_with(const PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
                 const FitProgress& progress) {
-  problem.set_noise(noise);
-  Unknowns unknowns = problem.initial();
-  unknowns.parameters = parameters;
-  return rms_of(problem.white_residuals_of(fit_nuisances(problem, std::move(unknowns), progress)));
+  constexpr int kSteps = 4;
+  Eigen::VectorXd unknowns = problem.start();
+  unknowns.head(parameters.size()) = parameters;
+  auto point = problem.at(problem.with_delays(std::move(unknowns)));
+  if (!point.passes.empty())
+    point = problem.minimise(std::move(point), kSteps, Parameters::fixed, progress, "judge");
+  return rms_of(point);
 }
 
-std::vector<ChannelFit> channels_of_fit(const FitProblem& problem) {
+std::vector<ChannelFit> channels_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate) {
   std::vector<ChannelFit> all;
   for (std::size_t c = 0; c < kChannels; ++c) {
     const auto channel = static_cast<Channel>(c);
-    ChannelFit fit{channel, 0, problem.noise().scale(channel), problem.noise().correlation(channel)};
-    for (const RecordedMotion& recording : problem.recordings()) fit.readings += recording[channel].size();
-    if (fit.readings > 0) all.push_back(fit);
+    ChannelFit fit{channel, 0, problem.noises().factor[c], 0};
+    double products = 0, squares = 0;
+    for (std::size_t r = 0; r < problem.filters().size(); ++r) {
+      const auto& readings = problem.filters()[r].readings();
+      double before = 0;
+      for (std::size_t i = 0; i < readings.size(); ++i) {
+        if (readings[i].channel != channel) continue;
+        const double white = estimate.point.passes[r].readings[i].white;
+        products += before * white;
+        squares += white * white;
+        before = white;
+        ++fit.readings;
+      }
+    }
+    if (fit.readings == 0) continue;
+    fit.correlation = squares > 0 ? products / squares : 0;
+    all.push_back(fit);
   }
   return all;
 }
 
-std::vector<NuisanceFit> nuisances_of_fit(const FitProblem& problem, const Estimate& estimate) {
+std::vector<NuisanceFit> nuisances_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate) {
   std::vector<NuisanceFit> all;
-  const auto parameters = static_cast<Eigen::Index>(problem.parameters().size());
-  for (std::size_t r = 0; r < problem.recordings().size(); ++r) {
-    const Calibration priors = nuisance_stds(problem.recordings()[r]);
+  for (std::size_t r = 0; r < problem.filters().size(); ++r) {
+    const Calibration priors = estimated_nuisance_stds(problem.filters()[r]);
     for (Eigen::Index i = 0; i < kNuisances; ++i) {
-      const Eigen::Index at = parameters + static_cast<Eigen::Index>(r) * kNuisances + i;
+      const Eigen::Index at = problem.nuisances_at(r) + i;
       const double std = std::sqrt(estimate.border_covariance(at, at));
       if (std > kTold * priors[i]) continue;
       const NuisanceDescription& of = nuisances()[static_cast<std::size_t>(i)];
-      all.push_back({problem.recordings()[r].name, std::string(of.name), std::string(of.unit),
-                     estimate.unknowns.calibrations[r][i], std});
+      all.push_back({problem.filters()[r].recording().name, std::string(of.name), std::string(of.unit),
+                     estimate.unknowns[at], std});
     }
   }
   return all;
 }
 
-void warn_of_fit(const FitProblem& problem, const Estimate& estimate, Identification& answer) {
-  for (std::size_t r = 0; r < problem.recordings().size(); ++r) {
-    const double delay_s = get(estimate.unknowns.calibrations[r], Nuisance::actuator_delay);
+std::vector<DisturbanceFit> disturbances_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate) {
+  constexpr std::array<std::string_view, 6> kAxisNames{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+  sim::Vector6 power = sim::Vector6::Zero();
+  for (std::size_t r = 0; r < problem.filters().size(); ++r)
+    power += problem.filters()[r].actuator_power(estimate.point.passes[r]);
+  power /= static_cast<double>(problem.filters().size());
+  std::vector<DisturbanceFit> all;
+  for (std::size_t i = 0; i < kAxisNames.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    DisturbanceFit fit{
+        kAxisNames[i], i < 3 ? "m/s2" : "rad/s2", problem.noises().coloured[at], problem.noises().white[at], {}};
+    // Below a thousandth of it the actuators do not move the vehicle this way.
+    if (std::sqrt(power[at]) > 1e-3 * fit.coloured) fit.share = fit.coloured / std::sqrt(power[at]);
+    all.push_back(fit);
+  }
+  return all;
+}
+
+void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate, Identification& answer) {
+  for (std::size_t r = 0; r < problem.filters().size(); ++r) {
+    const double delay_s =
+        estimate.unknowns[problem.nuisances_at(r) + static_cast<Eigen::Index>(Nuisance::actuator_delay)];
     if (std::abs(delay_s) > kLate)
       answer.warnings.push_back(fmt::format(
           "{}: the vehicle follows its commands {:.2f} s {} than the layout and the recording's times say",
-          problem.recordings()[r].name, std::abs(delay_s), delay_s > 0 ? "later" : "earlier"));
+          problem.filters()[r].recording().name, std::abs(delay_s), delay_s > 0 ? "later" : "earlier"));
   }
-  std::string poor, far;
+  if (answer.interval_s > 0)
+    answer.warnings.push_back(
+        fmt::format("neighbouring readings are not independent (filtered or interpolated?): one in {:g} s of each "
+                    "channel is used",
+                    answer.interval_s));
+  std::string poor, far, bounds;
   for (const ChannelFit& fit : answer.channels) {
     if (static_cast<double>(fit.readings) < kFewPerChannel || fit.noise_scale < kPoorFit) continue;
     poor += fmt::format("{}{} {:.1f}", poor.empty() ? "" : ", ", describe(fit.channel).name, fit.noise_scale);
@@ -80,10 +128,21 @@ void warn_of_fit(const FitProblem& problem, const Estimate& estimate, Identifica
   for (const IdentifiedParameter& one : answer.parameters) {
     const double away = std::abs(one.value - one.parameter.prior) / one.parameter.prior_std;
     if (away > kFarFromPrior) far += fmt::format("{}{} {:.1f}", far.empty() ? "" : ", ", one.parameter.name, away);
+    if (one.value <= one.parameter.low || one.value >= one.parameter.high)
+      bounds += (bounds.empty() ? "" : ", ") + one.parameter.name;
   }
+  if (answer.left_out > 0)
+    answer.warnings.push_back(
+        fmt::format("{} stretches of a few seconds are left out: the vehicle of the file leaves all bounds there",
+                    answer.left_out));
+  if (!bounds.empty()) answer.warnings.push_back("numbers at a bound: " + bounds);
+  if (estimate.start_spread > kApart_sigma)
+    answer.warnings.push_back(
+        fmt::format("two starts of the fit end up to {:.1f} stated errors apart; the likelier one is shown",
+                    estimate.start_spread));
   if (!poor.empty())
     answer.warnings.push_back(
-        "the fitted vehicle does not explain the recordings: residuals over the instruments' noise: " + poor);
+        "the fitted vehicle does not explain the recordings: noise over the instruments' own: " + poor);
   if (!far.empty())
     answer.warnings.push_back("numbers far from the file's, in its standard errors: " + far +
                               ". Is this a recording of another vehicle?");
@@ -91,43 +150,75 @@ void warn_of_fit(const FitProblem& problem, const Estimate& estimate, Identifica
     answer.warnings.push_back(fmt::format("the fit has not settled within {} steps", answer.iterations));
 }
 
+/// A problem with the recordings that it holds.
+struct Thinned {
+  std::vector<RecordedMotion> recordings;
+  std::unique_ptr<PredictionErrorProblem> problem;
+  std::size_t left_out = 0;
+};
+
+Thinned thinned_problem(const IdentifyRequest& request, const std::vector<Parameter>& parameters,
+                        double interval_s) {
+  Thinned all;
+  for (const RecordedMotion& recording : request.recordings)
+    all.recordings.push_back(thinned(recording, interval_s));
+  all.problem =
+      std::make_unique<PredictionErrorProblem>(request.prior, parameters, all.recordings, request.settings);
+  all.left_out = all.problem->leave_out_diverging(all.problem->start());
+  return all;
+}
+
 }  // namespace
 
-namespace {
-
-/// One fit with the windows of the request.
-Identification identified(const IdentifyRequest& request, const FitProgress& progress) {
+Identification identify(const IdentifyRequest& request, const FitProgress& progress) {
   const std::vector<Parameter> parameters = uncertain_parameters(request.prior);
   if (parameters.empty())
     throw std::invalid_argument(
         "the layout states no uncertain number: beside each number that the recordings shall tell, KEY_std states "
         "its standard error, or KEY_range its range");
-  FitProblem problem(request.prior, parameters, request.recordings, request.settings);
+  Thinned used = thinned_problem(request, parameters, 0);
   Identification answer;
+  Estimate found = estimate(*used.problem, progress);
+  const auto count = std::ssize(parameters);
+  for (const double interval_s : kIntervals_s) {
+    Thinned thinner = thinned_problem(request, parameters, interval_s);
+    const Eigen::VectorXd there = found.unknowns.head(count);
+    if (contradiction(*thinner.problem, there, progress) < kContradicted) break;
+    const int steps = found.iterations;
+    found = estimate_from(*thinner.problem, there, progress);
+    found.iterations += steps;
+    used = std::move(thinner);
+    answer.interval_s = interval_s;
+  }
+  PredictionErrorProblem& problem = *used.problem;
   answer.warnings = problem.oddities();
-  const Estimate found = estimate(problem, progress);
+  answer.left_out = used.left_out;
+  const Eigen::VectorXd values = found.unknowns.head(count), priors = prior_values(parameters);
   answer.model_error = found.model_error;
   answer.iterations = found.iterations;
   answer.converged = found.converged;
   for (const RecordedMotion& recording : request.recordings) answer.seconds += recording.duration_s;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    answer.parameters.push_back({parameters[i], found.unknowns.parameters[at], found.stds[at],
-                                 found.stds[at] <= kTold * parameters[i].prior_std});
+    answer.parameters.push_back(
+        {parameters[i], values[at], found.stds[at], found.stds[at] <= kTold * parameters[i].prior_std});
   }
-  answer.directions = untold_directions(parameters, found.unknowns.parameters, found.covariance);
-  answer.channels = channels_of_fit(problem);
+  answer.directions = untold_directions(parameters, values, found.covariance);
+  answer.channels = channels_of_fit(problem, found);
   answer.nuisances = nuisances_of_fit(problem, found);
-  answer.layout = with_estimates(request.prior, parameters, found.unknowns.parameters, found.stds);
+  answer.disturbances = disturbances_of_fit(problem, found);
+  answer.disturbance_tau_s = problem.noises().tau_s;
+  answer.layout = with_estimates(request.prior, parameters, values, found.stds);
   warn_of_fit(problem, found, answer);
-  answer.fitted.after = rms_of(problem.white_residuals_of(found.unknowns));
-  const Eigen::VectorXd priors = prior_values(parameters);
-  answer.fitted.before = rms_with(problem, problem.noise(), priors, progress);
+  answer.fitted = {rms_with(problem, priors, progress), rms_of(found.point)};
   if (!request.held_out.empty()) {
-    FitProblem held_out(request.prior, parameters, request.held_out, request.settings);
-    BeforeAfter rms;
-    rms.before = rms_with(held_out, problem.noise(), priors, progress);
-    rms.after = rms_with(held_out, problem.noise(), found.unknowns.parameters, progress);
+    std::vector<RecordedMotion> recordings;
+    for (const RecordedMotion& recording : request.held_out)
+      recordings.push_back(thinned(recording, answer.interval_s));
+    PredictionErrorProblem held_out(request.prior, parameters, recordings, request.settings);
+    held_out.set_noises(problem.noises());
+    held_out.leave_out_diverging(held_out.start());
+    const BeforeAfter rms{rms_with(held_out, priors, progress), rms_with(held_out, values, progress)};
     answer.held_out = rms;
     if (!(rms.after < kNoBetter * rms.before))
       answer.warnings.push_back(
@@ -135,28 +226,8 @@ Identification identified(const IdentifyRequest& request, const FitProgress& pro
                       rms.before, rms.after));
   }
   if (request.advise && !answer.directions.empty())
-    answer.manoeuvres = advised_manoeuvres(problem, found, progress);
+    answer.manoeuvres = advised_manoeuvres(problem, found, request.settings, progress);
   return answer;
-}
-
-}  // namespace
-
-Identification identify(const IdentifyRequest& request, const FitProgress& progress) {
-  IdentifyRequest shorter = request;
-  while (true) {
-    try {
-      Identification answer = identified(shorter, progress);
-      if (shorter.settings.window_s < request.settings.window_s) {
-        answer.warnings.push_back(fmt::format(
-            "windows of {} s were used instead of {} s: within longer ones the vehicle leaves all bounds",
-            shorter.settings.window_s, request.settings.window_s));
-      }
-      return answer;
-    } catch (const UnboundedReplay& error) {
-      shorter.settings.window_s /= 2;
-      if (shorter.settings.window_s < kLeastWindow_s) throw std::invalid_argument(error.what());
-    }
-  }
 }
 
 }  // namespace navcal::identify

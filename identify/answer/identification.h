@@ -16,7 +16,7 @@ namespace navcal::identify {
 struct IdentifyRequest {
   config::Layout prior;
   std::vector<RecordedMotion> recordings, held_out;
-  FitSettings settings;
+  EstimateSettings settings;
   bool advise = true;  ///< simulate manoeuvres where something is not told
 };
 
@@ -26,8 +26,8 @@ struct IdentifiedParameter {
   bool is_identified = false;  ///< the recordings made its error at least half as large
 };
 
-/// Root mean square of whitened residuals with the numbers of the file and with the fitted ones. Nuisances and
-/// states are fitted for both.
+/// Root mean square of the filter's whitened innovations with the numbers of the file and with the fitted ones,
+/// both under the disturbances of the fit. Nuisances are fitted for both.
 struct BeforeAfter {
   double before = 0, after = 0;
 };
@@ -35,13 +35,21 @@ struct BeforeAfter {
 struct ChannelFit {
   Channel channel;
   std::size_t readings = 0;
-  double noise_scale = 1;  ///< residuals over the stated noise
-  double correlation = 0;  ///< of neighbouring residuals
+  double noise_scale = 1;  ///< noise over the stated one
+  double correlation = 0;  ///< of neighbouring whitened innovations
 };
 
 struct NuisanceFit {
   std::string recording, name, unit;
   double value = 0, std = 0;
+};
+
+/// Unknown forces along one axis, as accelerations.
+struct DisturbanceFit {
+  std::string_view axis, unit;
+  double coloured = 0;          ///< standard deviation of what lasts for the time constant
+  double white = 0;             ///< random walk of the velocity, per root of a second
+  std::optional<double> share;  ///< of `coloured` in the actuators' acceleration, root mean square
 };
 
 struct Identification {
@@ -52,6 +60,10 @@ struct Identification {
   std::optional<BeforeAfter> held_out;
   std::vector<ChannelFit> channels;
   std::vector<NuisanceFit> nuisances;  ///< that the recordings tell
+  std::vector<DisturbanceFit> disturbances;
+  double disturbance_tau_s = 0;
+  double interval_s = 0;     ///< between readings of a channel that are used; 0: all are
+  std::size_t left_out = 0;  ///< stretches where the vehicle of the file leaves all bounds
   std::vector<std::string> warnings;
   double model_error = 1;
   double seconds = 0;  ///< of all recordings

@@ -69,39 +69,40 @@ std::function<sim::ActuatorValues(double, const sim::Body&)> commands_of(const c
   };
 }
 
-/// Information of a recording about the parameters, without nuisances and states.
-Eigen::MatrixXd information_of(const FitProblem& problem, const Unknowns& unknowns) {
-  const auto linearised = problem.linearise(unknowns);
-  const Eigen::MatrixXd all = linearised.system.information();
-  const auto n = static_cast<Eigen::Index>(problem.parameters().size());
-  const Eigen::Index rest = all.rows() - n;
-  Eigen::MatrixXd own =
+/// Information of a recording about the parameters, without nuisances.
+Eigen::MatrixXd information_of(const PredictionErrorProblem& problem) {
+  const auto point = problem.at(problem.start());
+  if (point.passes.empty()) throw std::invalid_argument("the vehicle leaves all bounds");
+  Eigen::MatrixXd all = problem.linearise(point, PredictionErrorProblem::Parameters::free).information;
+  const auto n = std::ssize(problem.parameters()), rest = all.rows() - n;
+  all.diagonal().tail(rest) += problem.precision().tail(rest);
+  const Eigen::MatrixXd own =
       all.topLeftCorner(n, n) -
       all.topRightCorner(n, rest) * Eigen::LDLT<Eigen::MatrixXd>(all.bottomRightCorner(rest, rest))
                                         .solve(Eigen::MatrixXd(all.bottomLeftCorner(rest, n)));
-  own.diagonal() -= prior_stds(problem.parameters()).cwiseAbs2().cwiseInverse();
   return (own + own.transpose()) / 2;
 }
 
-std::optional<ManoeuvreAdvice> advice_of(const ManoeuvreRow& row, const FitProblem& problem,
-                                         const Estimate& estimate, const config::Layout& fitted) {
+std::optional<ManoeuvreAdvice> advice_of(const ManoeuvreRow& row, const PredictionErrorProblem& problem,
+                                         const Estimate& estimate, const EstimateSettings& settings,
+                                         const config::Layout& fitted) {
+  const RecordedMotion& like = problem.filters().front().recording();
   SimulatedMotionRequest request;
-  request.channels = channels_of(problem.recordings().front());
+  request.channels = channels_of(like);
   request.seconds = kSeconds;
   request.start.position_m.z() = 5;
   request.commands = commands_of(fitted, row);
-  request.tilt_lag_s = problem.recordings().front().tilt_lag_s;
-  request.dip_rad = problem.recordings().front().dip_rad;
+  request.tilt_lag_s = like.tilt_lag_s;
+  request.dip_rad = like.dip_rad;
   const std::vector<RecordedMotion> recordings{simulated_motion(fitted, request)};
   if (recordings.front().duration_s < kSeconds / 2) return std::nullopt;
   // The same unknowns about the estimate: only the prior's mean is another.
   std::vector<Parameter> parameters = problem.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    parameters[i].prior = estimate.unknowns.parameters[static_cast<Eigen::Index>(i)];
-  FitProblem simulated(fitted, parameters, recordings, problem.settings());
-  simulated.set_noise(problem.noise());
-  const Unknowns unknowns = fit_nuisances(simulated, simulated.initial(), [](auto, auto) {});
-  const Eigen::MatrixXd information = information_of(simulated, unknowns) / estimate.model_error;
+    parameters[i].prior = estimate.unknowns[static_cast<Eigen::Index>(i)];
+  PredictionErrorProblem simulated(fitted, parameters, recordings, settings);
+  simulated.set_noises(problem.noises());
+  const Eigen::MatrixXd information = information_of(simulated) / estimate.model_error;
   const Eigen::Index n = information.rows();
   // C' = C - C (H^-1 + C)^-1 C without an inverse of H: C' = (1 + C H)^-1 C.
   const Eigen::MatrixXd grown = Eigen::MatrixXd::Identity(n, n) + estimate.covariance * information;
@@ -124,19 +125,19 @@ std::optional<ManoeuvreAdvice> advice_of(const ManoeuvreRow& row, const FitProbl
 
 }  // namespace
 
-std::vector<ManoeuvreAdvice> advised_manoeuvres(const FitProblem& problem, const Estimate& estimate,
-                                                const FitProgress& progress) {
-  const config::Layout fitted = with_values(problem.layout(), problem.parameters(), estimate.unknowns.parameters);
+std::vector<ManoeuvreAdvice> advised_manoeuvres(const PredictionErrorProblem& problem, const Estimate& estimate,
+                                                const EstimateSettings& settings, const FitProgress& progress) {
+  const config::Layout fitted =
+      with_values(problem.layout(), problem.parameters(), estimate.unknowns.head(estimate.stds.size()));
   std::vector<ManoeuvreAdvice> all;
   const auto& table = table_of_manoeuvres();
   for (std::size_t i = 0; i < table.size(); ++i) {
     progress("manoeuvres", static_cast<double>(i) / static_cast<double>(table.size()));
     try {
-      if (auto advice = advice_of(table[i], problem, estimate, fitted)) all.push_back(std::move(*advice));
+      if (auto advice = advice_of(table[i], problem, estimate, settings, fitted))
+        all.push_back(std::move(*advice));
     } catch (const std::invalid_argument&) {
       // This vehicle cannot do it: its motion leaves all bounds, or nothing is left to measure.
-    } catch (const std::runtime_error&) {
-      // The same, of a replay with a parameter moved.
     }
   }
   std::sort(all.begin(), all.end(),

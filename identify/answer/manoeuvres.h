@@ -19,8 +19,10 @@ struct ManoeuvreAdvice {
 
 /// Manoeuvres of a small table, simulated with the layout and with the instruments of the first recording; those
 /// that make an untold number at least a tenth better, best first. The information of a manoeuvre is that of its
-/// replay without nuisances and states, divided by the estimate's model error.
-[[nodiscard]] std::vector<ManoeuvreAdvice> advised_manoeuvres(const FitProblem& problem, const Estimate& estimate,
+/// filter without nuisances, divided by the estimate's model error.
+[[nodiscard]] std::vector<ManoeuvreAdvice> advised_manoeuvres(const PredictionErrorProblem& problem,
+                                                              const Estimate& estimate,
+                                                              const EstimateSettings& settings,
                                                               const FitProgress& progress);
 
 }  // namespace navcal::identify

@@ -20,7 +20,7 @@ constexpr double kGrid_s = 0.1;
 constexpr int kModelSteps = 5;  ///< of the layout's vehicle, in one of the grid
 constexpr double kModelStep_s = kGrid_s / kModelSteps;
 constexpr double kGap_s = 2;               ///< between readings, which are interpolated within
-constexpr std::ptrdiff_t kDifference = 3;  ///< steps of the grid before and behind, for a derivative
+constexpr std::ptrdiff_t kSlopeSteps = 3;  ///< steps of the grid before and behind, for a derivative
 constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};  ///< steps of the grid
 constexpr double kSteered = 3;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -68,7 +68,7 @@ struct Track {
            bodies[k].euler_rad.allFinite();
   }
   [[nodiscard]] sim::Vector6 acceleration(std::size_t k) const {
-    return (bodies[k + kDifference].velocity - bodies[k - kDifference].velocity) / (2 * kDifference * kGrid_s);
+    return (bodies[k + kSlopeSteps].velocity - bodies[k - kSlopeSteps].velocity) / (2 * kSlopeSteps * kGrid_s);
   }
 };
 
@@ -107,10 +107,10 @@ Track::Track(const config::Layout& layout, const RecordedMotion& motion) {
     if (motion.has(axis(Channel::rate_x))) rates[i] = grid(axis(Channel::rate_x));
   }
   const auto slope = [&](const std::vector<double>& of, std::size_t k, bool is_angle = false) {
-    const std::size_t d = kDifference;
+    const std::size_t d = kSlopeSteps;
     if (k < d || k + d >= rows) return kNone;
     const double change = of[k + d] - of[k - d];
-    return (is_angle ? base::wrapped(change) : change) / (2 * kDifference * kGrid_s);
+    return (is_angle ? base::wrapped(change) : change) / (2 * kSlopeSteps * kGrid_s);
   };
   Eigen::Vector2d reckoned = Eigen::Vector2d::Zero();
   for (std::size_t k = 0; k < rows; ++k) {
@@ -147,8 +147,8 @@ class Regression {
       : layout_(layout), is_quadratic_(is_quadratic) {
     Eigen::MatrixXd squares, products;
     for (const Track& track : tracks) {
-      for (std::size_t k = kDifference; k + kDifference < track.bodies.size(); ++k) {
-        if (!track.is_measured(k) || !track.is_measured(k - kDifference) || !track.is_measured(k + kDifference))
+      for (std::size_t k = kSlopeSteps; k + kSlopeSteps < track.bodies.size(); ++k) {
+        if (!track.is_measured(k) || !track.is_measured(k - kSlopeSteps) || !track.is_measured(k + kSlopeSteps))
           continue;
         const Eigen::VectorXd row = terms(track.bodies[k], track.actuators, kGrid_s * static_cast<double>(k));
         if (squares.size() == 0) {

@@ -70,14 +70,17 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
     }
     if (request.reports_positions) note(recorded, layout, time_s, positions, true);
     sim::ActuatorValues next = sim::follow(layout, positions, commands, step_s);
-    const auto step = vehicle.step(body, sim::mean_of(positions, next), step_s);
+    const sim::Vector6 disturbance = request.disturbance ? request.disturbance(time_s) : sim::Vector6::Zero();
+    auto step = vehicle.step(body, sim::mean_of(positions, next), step_s);
     if (k % per_point == 0) {
       const sim::LayoutVehicle::Held now = vehicle.hold(positions);
       MotionPoint point;
       point.body = body;
-      point.acceleration = now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now);
+      point.acceleration =
+          now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now) + disturbance;
       motion.points.push_back(point);
     }
+    step.body.velocity += step_s * disturbance;
     const bool is_sane = std::abs(step.body.euler_rad.y()) < 1.5 && step.body.velocity.cwiseAbs().maxCoeff() < 30;
     if (!is_sane) {
       recorded.duration_s = time_s;

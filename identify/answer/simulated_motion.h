@@ -29,6 +29,8 @@ struct SimulatedMotionRequest {
   /// Commands at a time in seconds, for a vehicle that moves so; asked for ten times a second, and held in
   /// between.
   std::function<sim::ActuatorValues(double, const sim::Body&)> commands;
+  /// Accelerations that disturb the vehicle, body axes; empty: none.
+  std::function<sim::Vector6(double)> disturbance;
   Calibration calibration = Calibration::Zero();  ///< errors of the instruments, and the current
   std::optional<std::uint64_t> seed;              ///< nullopt: no noise
   double tilt_lag_s = 0, dip_rad = 0;             ///< of the compass

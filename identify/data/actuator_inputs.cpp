@@ -86,17 +86,21 @@ std::string_view unit_name(config::CommandUnit unit) {
 ActuatorTrajectory::ActuatorTrajectory(const config::Layout& layout, std::size_t rows)
     : columns_(layout.thrusters.size() + layout.surfaces.size() + layout.ballasts.size() +
                layout.moving_masses.size()),
-      rows_(rows), values_(columns_ * rows) {}
+      rows_(rows), values_(columns_ * rows), integrals_(columns_ * rows) {}
 
 void ActuatorTrajectory::set(std::size_t row, const sim::ActuatorValues& positions) {
-  auto out = values_.begin() + static_cast<std::ptrdiff_t>(row * columns_);
+  std::size_t i = row * columns_;
   for (const auto* part :
-       {&positions.thrusters, &positions.surfaces_rad, &positions.ballasts_N, &positions.masses_m})
-    out = std::copy(part->begin(), part->end(), out);
+       {&positions.thrusters, &positions.surfaces_rad, &positions.ballasts_N, &positions.masses_m}) {
+    for (const double value : *part) {
+      values_[i] = value;
+      if (row > 0) integrals_[i] = integrals_[i - columns_] + kStep_s / 2 * (values_[i - columns_] + value);
+      ++i;
+    }
+  }
 }
 
-template <class Take>
-void ActuatorTrajectory::interpolate(double time_s, sim::ActuatorValues& out, Take take) const {
+void ActuatorTrajectory::at(double time_s, sim::ActuatorValues& out) const {
   const double place = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(rows_ - 1));
   const std::size_t row = std::min(static_cast<std::size_t>(place), rows_ - 1);
   const double part = place - static_cast<double>(row);
@@ -104,21 +108,35 @@ void ActuatorTrajectory::interpolate(double time_s, sim::ActuatorValues& out, Ta
   const double* b = row + 1 < rows_ ? a + columns_ : a;
   for (auto* values : {&out.thrusters, &out.surfaces_rad, &out.ballasts_N, &out.masses_m}) {
     for (double& value : *values) {
-      take(value, *a + part * (*b - *a));
+      value = *a + part * (*b - *a);
       ++a;
       ++b;
     }
   }
 }
 
-void ActuatorTrajectory::at(double time_s, sim::ActuatorValues& out) const {
-  interpolate(time_s, out, [](double& value, double now) { value = now; });
+void ActuatorTrajectory::add_integrals(double time_s, double factor, sim::ActuatorValues& out) const {
+  const double within_s = std::clamp(time_s, 0.0, end_s());
+  const std::size_t row = std::min(static_cast<std::size_t>(within_s / kStep_s), rows_ - 1);
+  const double past_s = within_s - kStep_s * static_cast<double>(row);
+  std::size_t i = row * columns_;
+  const std::size_t next = row + 1 < rows_ ? columns_ : 0;
+  // Before and after the grid its ends hold.
+  const double outside_s = time_s - within_s;
+  for (auto* values : {&out.thrusters, &out.surfaces_rad, &out.ballasts_N, &out.masses_m}) {
+    for (double& value : *values) {
+      const double slope = (values_[i + next] - values_[i]) / kStep_s;
+      value += factor * (integrals_[i] + past_s * (values_[i] + past_s / 2 * slope) + outside_s * values_[i]);
+      ++i;
+    }
+  }
 }
 
 void ActuatorTrajectory::mean(double time_s, double over_s, sim::ActuatorValues& out) const {
-  interpolate(time_s, out, [](double& value, double now) { value = now / 4; });
-  interpolate(time_s + over_s / 2, out, [](double& value, double now) { value += now / 2; });
-  interpolate(time_s + over_s, out, [](double& value, double now) { value += now / 4; });
+  for (auto* values : {&out.thrusters, &out.surfaces_rad, &out.ballasts_N, &out.masses_m})
+    std::fill(values->begin(), values->end(), 0.0);
+  add_integrals(time_s + over_s, 1 / over_s, out);
+  add_integrals(time_s, -1 / over_s, out);
 }
 
 std::vector<std::string> signals_of_thruster(const config::Layout& layout, std::size_t thruster) {
@@ -176,6 +194,14 @@ ActuatorInputs::ActuatorInputs(const config::Layout& layout, const RecordedMotio
     ballasts_.push_back(input_of("ballast " + ballast.name, of_channel(ballast.channel, "ballast")));
   for (const auto& mass : layout.moving_masses)
     masses_.push_back(input_of("moving mass " + mass.name, of_channel(mass.channel, "moving_mass")));
+}
+
+bool ActuatorInputs::follow_commands() const {
+  const auto any = [](const std::vector<Input>& inputs) {
+    return std::any_of(inputs.begin(), inputs.end(),
+                       [](const Input& input) { return input.signal != nullptr && !input.is_position; });
+  };
+  return any(thrusters_) || any(surfaces_) || any(ballasts_) || any(masses_);
 }
 
 std::vector<std::string> ActuatorInputs::oddities(const config::Layout& layout) const {

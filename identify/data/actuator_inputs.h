@@ -19,19 +19,20 @@ class ActuatorTrajectory {
   ActuatorTrajectory() = default;
   ActuatorTrajectory(const config::Layout& layout, std::size_t rows);
 
+  /// Row after row.
   void set(std::size_t row, const sim::ActuatorValues& positions);
   /// Writes the positions at a time into `out`, which has the layout's sizes; before and after the grid its ends.
   void at(double time_s, sim::ActuatorValues& out) const;
-  /// Means over the time from `time_s` on, exact where the grid is as fine as half of it.
+  /// Exact means over the time from `time_s` on.
   void mean(double time_s, double over_s, sim::ActuatorValues& out) const;
   [[nodiscard]] double end_s() const { return kStep_s * static_cast<double>(rows_ > 0 ? rows_ - 1 : 0); }
 
  private:
-  template <class Take>
-  void interpolate(double time_s, sim::ActuatorValues& out, Take take) const;
+  /// Adds `factor` times the integrals from time 0 on.
+  void add_integrals(double time_s, double factor, sim::ActuatorValues& out) const;
 
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<double> values_;
+  std::vector<double> values_, integrals_;  ///< row by row
 };
 
 /// Names of the signals of which the first that a recording has moves an actuator of the layout. Empty: none.
@@ -53,6 +54,8 @@ class ActuatorInputs {
 
   /// In words, with the actuator and the signal that is missing; empty: every actuator has its signal.
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
+  /// Whether an actuator follows a command; else all signals are positions.
+  [[nodiscard]] bool follow_commands() const;
   /// What is odd about the commands, with the number that shows it: beyond limits, at a limit for long, gaps.
   [[nodiscard]] std::vector<std::string> oddities(const config::Layout& layout) const;
   /// Positions with the lags, limits and dead bands of this layout, which has the actuators of that of the

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/angles.h"
@@ -242,6 +243,19 @@ RecordedMotion MotionGatherer::take(std::int64_t begin_ns) {
 }
 
 }  // namespace
+
+RecordedMotion thinned(RecordedMotion motion, double interval_s) {
+  constexpr double kRounding_s = 1e-3;
+  for (std::vector<Reading>& readings : motion.channels) {
+    double next_s = -std::numeric_limits<double>::infinity();
+    std::erase_if(readings, [&](const Reading& reading) {
+      if (reading.time_s < next_s) return true;
+      next_s = reading.time_s + interval_s - kRounding_s;
+      return false;
+    });
+  }
+  return motion;
+}
 
 RecordedMotion load_motion(const std::filesystem::path& file, const std::function<void(double)>& progress,
                            const std::optional<config::Settings>& stated) {

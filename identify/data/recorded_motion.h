@@ -57,6 +57,9 @@ struct RecordedMotion {
   [[nodiscard]] bool has(Channel channel) const { return !(*this)[channel].empty(); }
 };
 
+/// The same with at most one reading of each channel in `interval_s`.
+[[nodiscard]] RecordedMotion thinned(RecordedMotion motion, double interval_s);
+
 /// Reads a log or a capture through the pipeline. `stated`: the configuration to use instead of the recording's
 /// own. Rates and forces that come faster than 25 times a second are averaged over 0.04 s. Of two devices with the
 /// same channel the one with more readings counts. `progress` gets 0 to 1. Throws record::BadRecording.

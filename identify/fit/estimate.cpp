@@ -2,32 +2,28 @@
 #include "identify/fit/estimate.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace navcal::identify {
 namespace {
 
-constexpr int kMostIterations = 25;
-constexpr int kNoisePasses = 2;
-constexpr double kSettled = 0.01;  ///< of the cost: no standard error's worth is left
-constexpr double kFirstDamping = 1e-4, kGreatestDamping = 1e8;
-constexpr std::size_t kLag = 2;  ///< windows that count as correlated
-constexpr double kWindowsPerUnknown = 5;
+using Point = PredictionErrorProblem::Point;
+using Parameters = PredictionErrorProblem::Parameters;
 
-Unknowns moved(const FitProblem& problem, const Unknowns& from, const ChainSystem::Solution& step,
-               const ChainSystem& system) {
-  Unknowns to = from;
-  for (Eigen::Index i = 0; i < to.parameters.size(); ++i) {
-    const Parameter& parameter = problem.parameters()[static_cast<std::size_t>(i)];
-    to.parameters[i] = std::clamp(to.parameters[i] + step.border[i], parameter.low, parameter.high);
-  }
-  for (std::size_t r = 0; r < to.states.size(); ++r) {
-    to.calibrations[r] += step.border.segment<kNuisances>(system.nuisances_at(r));
-    for (std::size_t k = 0; k < to.states[r].size(); ++k) to.states[r][k] += step.states[r][k];
-  }
-  return to;
+constexpr int kFewSteps = 6, kMostSteps = 12, kRounds = 3;
+constexpr double kRoundSettled = 0.5;  ///< of the cost, from round to round
+constexpr std::size_t kLag = 2;        ///< blocks that count as correlated
+constexpr double kBlocksPerUnknown = 5;
+
+/// Disturbances so strong that the filter follows the readings: steps from one to the next remain.
+FilterNoises equation_error() {
+  FilterNoises noises;
+  noises.white *= 10;
+  noises.coloured *= 3;
+  noises.tau_s = 1;
+  return noises;
 }
 
 /// Covariance of the score of one recording: its own windows, and neighbours with Bartlett's weights.
@@ -52,103 +48,154 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
          scale.asDiagonal();
 }
 
-void add_covariance(const FitProblem& problem, const FitProblem::Linearised& linearised, Estimate& estimate) {
-  const ChainSystem& system = linearised.system;
-  const Eigen::MatrixXd information = system.information();
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(information.rows(), information.cols());
-  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
-    const double std = problem.parameters()[i].prior_std;
-    prior(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) = 1 / (std * std);
+/// The scatter of the estimates that the recordings would give one by one, as a variance of their mean; zero for
+/// one recording.
+Eigen::VectorXd variance_between(const PredictionErrorProblem& problem,
+                                 const PredictionErrorProblem::Linearised& linear) {
+  const auto recordings = linear.information_of.size();
+  const auto parameters = std::ssize(problem.parameters());
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(parameters), sum = square;
+  if (recordings < 2) return square;
+  const auto n = static_cast<double>(recordings);
+  for (std::size_t r = 0; r < recordings; ++r) {
+    const Eigen::Index first = linear.first_of_blocks[r], end = linear.first_of_blocks[r + 1];
+    const Eigen::VectorXd score = linear.block_scores.middleCols(first, end - first).rowwise().sum();
+    Eigen::MatrixXd information = linear.information_of[r];
+    information.diagonal() += problem.precision();
+    // Each has its share of the priors' pull.
+    const Eigen::VectorXd away = (inverse_of(information) * (score - linear.score / n)).head(parameters);
+    sum += away;
+    square += away.cwiseAbs2();
   }
-  double windows = 0;
-  Eigen::MatrixXd empirical = Eigen::MatrixXd::Zero(information.rows(), information.cols());
-  for (std::size_t r = 0; r < problem.recordings().size(); ++r) {
-    const Calibration stds = nuisance_stds(problem.recordings()[r]);
-    const Eigen::Index at = system.nuisances_at(r);
-    prior.diagonal().segment<kNuisances>(at) = stds.cwiseAbs2().cwiseInverse();
-    empirical += score_covariance(system.effective_scores(r, linearised.windows[r]));
-    windows += static_cast<double>(linearised.windows[r].size());
+  return (square - sum.cwiseAbs2() / n).cwiseMax(0) / (n * (n - 1));
+}
+
+void add_covariance(const PredictionErrorProblem& problem, Estimate& estimate) {
+  const auto linear = problem.linearise(estimate.point, Parameters::free);
+  const Eigen::MatrixXd& data = linear.information;
+  const Eigen::MatrixXd prior = problem.precision().asDiagonal();
+  const Eigen::MatrixXd model = inverse_of(data + prior);
+  Eigen::MatrixXd empirical = Eigen::MatrixXd::Zero(data.rows(), data.cols());
+  for (std::size_t r = 0; r + 1 < linear.first_of_blocks.size(); ++r) {
+    const Eigen::Index first = linear.first_of_blocks[r], end = linear.first_of_blocks[r + 1];
+    empirical += score_covariance(linear.block_scores.middleCols(first, end - first));
   }
-  const Eigen::MatrixXd data = information - prior;
-  const Eigen::MatrixXd model = inverse_of(information);
   // In the directions of the estimate: trace(A^-1 B) over trace(A^-1 H), which counts what the data determine.
   const double expected = model.cwiseProduct(data.transpose()).sum();
   const double found = model.cwiseProduct(empirical.transpose()).sum();
-  // The fit brings the sum of the scores to zero, which takes out as much as one window of all, and of its
+  // The fit brings the sum of the scores to zero, which takes out as much as one block of all, and of its
   // neighbours.
-  const double left = std::max(1 - static_cast<double>(1 + kLag) / std::max(windows, 1.0), 0.5);
+  const auto blocks = static_cast<double>(linear.block_scores.cols());
+  const double left = std::max(1 - static_cast<double>(1 + kLag) / std::max(blocks, 1.0), 0.5);
   estimate.model_error = expected > 0 ? std::max(found / (expected * left), 1.0) : 1;
-  const double weight = windows / (windows + kWindowsPerUnknown * std::max(expected, 1.0));
+  const double weight = blocks / (blocks + kBlocksPerUnknown * std::max(expected, 1.0));
   const Eigen::MatrixXd score = weight * empirical + (1 - weight) * estimate.model_error * data + prior;
   const Eigen::MatrixXd robust = model * score * model;
-  // Never less than the model alone would give.
-  const Eigen::VectorXd grown = (robust.diagonal().cwiseQuotient(model.diagonal())).cwiseMax(1).cwiseSqrt();
-  const Eigen::VectorXd model_stds = model.diagonal().cwiseSqrt();
-  const Eigen::MatrixXd correlation =
-      model_stds.cwiseInverse().asDiagonal() * model * model_stds.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd stds = grown.cwiseProduct(model_stds);
-  estimate.border_covariance = stds.asDiagonal() * correlation * stds.asDiagonal();
-  const auto parameters = static_cast<Eigen::Index>(problem.parameters().size());
+  const auto parameters = std::ssize(problem.parameters());
+  Eigen::VectorXd variance = robust.diagonal().cwiseMax(model.diagonal());
+  variance.head(parameters) = variance.head(parameters).cwiseMax(variance_between(problem, linear));
+  const Eigen::VectorXd grown = variance.cwiseQuotient(model.diagonal()).cwiseSqrt();
+  estimate.border_covariance = grown.asDiagonal() * model * grown.asDiagonal();
   estimate.covariance = estimate.border_covariance.topLeftCorner(parameters, parameters);
   estimate.stds = estimate.covariance.diagonal().cwiseSqrt();
 }
 
-}  // namespace
-
-Descent minimise(const FitProblem& problem, Unknowns unknowns, int most, FitProblem::Parameters which,
-                 const FitProgress& progress, std::string_view what) {
-  Descent descent{std::move(unknowns), 0};
-  descent.cost = problem.cost(descent.unknowns);
-  double damping = kFirstDamping;
-  while (descent.iterations < most && !descent.converged) {
-    progress(what, static_cast<double>(descent.iterations) / most);
-    const auto linearised = problem.linearise(descent.unknowns, which);
-    ++descent.iterations;
-    for (;;) {
-      const auto step = linearised.system.solve(damping);
-      Unknowns next = moved(problem, descent.unknowns, step, linearised.system);
-      const double cost = problem.cost(next);
-      if (cost <= descent.cost) {
-        descent.converged = descent.cost - cost < kSettled;
-        descent.cost = cost;
-        descent.unknowns = std::move(next);
-        damping = std::max(damping / 10, 1e-9);
-        break;
-      }
-      damping *= 10;
-      if (damping > kGreatestDamping) {
-        descent.converged = true;
-        break;
-      }
-    }
-  }
-  return descent;
+/// Instruments and disturbances at these unknowns, the parameters as they are.
+Point settled_at(PredictionErrorProblem& problem, const Eigen::VectorXd& unknowns, const FitProgress& progress) {
+  Point point = problem.minimise(problem.at(unknowns), kFewSteps / 2, Parameters::fixed, progress, "instruments");
+  if (point.passes.empty()) return point;
+  progress("disturbances", 0);
+  problem.fit_noises(point, false);
+  Point again = problem.at(std::move(point.unknowns));
+  again.steps = point.steps;
+  return again;
 }
 
-Estimate estimate(FitProblem& problem, const FitProgress& progress) {
-  // States and nuisances first: the parameters would be moved to mend a poor guess of them.
-  constexpr int kFewFirst = 6;
-  Descent descent =
-      minimise(problem, problem.initial(), kFewFirst, FitProblem::Parameters::fixed, progress, "states");
-  Estimate estimate;
-  for (int pass = 0; pass <= kNoisePasses; ++pass) {
-    descent = minimise(problem, std::move(descent.unknowns), kMostIterations, FitProblem::Parameters::free,
-                       progress, "fit");
-    estimate.iterations += descent.iterations;
-    if (pass < kNoisePasses) problem.fit_noise(descent.unknowns);
+/// One way to begin, followed so far that the ways can be compared; the noises are those of its end.
+Point begun(PredictionErrorProblem& problem, bool by_equation_error, const FitProgress& progress) {
+  problem.set_noises(FilterNoises{});
+  Eigen::VectorXd unknowns = problem.with_delays(problem.start());
+  if (by_equation_error) {
+    problem.set_noises(equation_error());
+    unknowns =
+        problem.minimise(problem.at(unknowns), kFewSteps, Parameters::free, progress, "equation error").unknowns;
+    problem.set_noises(FilterNoises{});
   }
-  estimate.unknowns = std::move(descent.unknowns);
-  estimate.cost = descent.cost;
-  estimate.converged = descent.converged;
+  Point point = settled_at(problem, unknowns, progress);
+  if (point.passes.empty()) return point;
+  return problem.minimise(std::move(point), kFewSteps, Parameters::free, progress, "fit");
+}
+
+Eigen::VectorXd unknowns_with(const PredictionErrorProblem& problem, const Eigen::VectorXd& parameters) {
+  Eigen::VectorXd unknowns = problem.start();
+  unknowns.head(parameters.size()) = parameters;
+  return problem.with_delays(std::move(unknowns));
+}
+
+/// Disturbances and parameters in turn.
+Estimate settled(PredictionErrorProblem& problem, Point point, int steps, const FitProgress& progress) {
+  Estimate estimate;
+  estimate.iterations = steps;
+  for (int round = 0; round < kRounds && !estimate.converged; ++round) {
+    progress("disturbances", static_cast<double>(round) / kRounds);
+    if (point.passes.empty()) break;
+    problem.fit_noises(point, round == 0);
+    const double before = problem.at(point.unknowns).cost;
+    point = problem.minimise(problem.at(point.unknowns), kMostSteps, Parameters::free, progress, "fit");
+    estimate.iterations += point.steps;
+    estimate.converged = point.is_settled && before - point.cost < kRoundSettled;
+  }
+  if (point.passes.empty()) throw std::invalid_argument("the vehicle leaves all bounds along the recordings");
+  estimate.unknowns = point.unknowns;
+  estimate.point = std::move(point);
   progress("standard errors", 0);
-  add_covariance(problem, problem.linearise(estimate.unknowns), estimate);
+  add_covariance(problem, estimate);
   return estimate;
 }
 
-Unknowns fit_nuisances(const FitProblem& problem, Unknowns unknowns, const FitProgress& progress) {
-  return minimise(problem, std::move(unknowns), kMostIterations, FitProblem::Parameters::fixed, progress,
-                  "held out")
-      .unknowns;
+}  // namespace
+
+Estimate estimate(PredictionErrorProblem& problem, const FitProgress& progress) {
+  Point point = begun(problem, false, progress);
+  const FilterNoises noises = problem.noises();
+  Point other = begun(problem, true, progress);
+  const int steps = point.steps + other.steps;
+  const Eigen::VectorXd apart = point.unknowns - other.unknowns;
+  if (other.cost < point.cost) {
+    point = std::move(other);
+  } else {
+    problem.set_noises(noises);
+  }
+  Estimate estimate = settled(problem, std::move(point), steps, progress);
+  estimate.start_spread = apart.head(estimate.stds.size()).cwiseQuotient(estimate.stds).cwiseAbs().maxCoeff();
+  return estimate;
+}
+
+Estimate estimate_from(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
+                       const FitProgress& progress) {
+  problem.set_noises(FilterNoises{});
+  return settled(problem, settled_at(problem, unknowns_with(problem, parameters), progress), 0, progress);
+}
+
+double contradiction(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
+                     const FitProgress& progress) {
+  problem.set_noises(FilterNoises{});
+  Point point = settled_at(problem, unknowns_with(problem, parameters), progress);
+  if (point.passes.empty()) return 0;
+  point = problem.minimise(std::move(point), kFewSteps / 2, Parameters::fixed, progress, "instruments");
+  const auto linear = problem.linearise(point, Parameters::free);
+  Eigen::MatrixXd information = linear.information;
+  information.diagonal() += problem.precision();
+  Eigen::VectorXd pull = linear.score;
+  pull.head(parameters.size()) -=
+      problem.precision().head(parameters.size()).cwiseProduct(parameters - prior_values(problem.parameters()));
+  pull.tail(pull.size() - parameters.size()).setZero();
+  const Eigen::MatrixXd inverse = inverse_of(information);
+  // As many parameters as the thinned readings tell.
+  const double told = inverse.cwiseProduct(linear.information.transpose())
+                          .topLeftCorner(parameters.size(), parameters.size())
+                          .sum();
+  return pull.dot(inverse * pull) / std::max(told, 1.0);
 }
 
 }  // namespace navcal::identify

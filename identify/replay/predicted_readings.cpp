@@ -21,22 +21,15 @@ double levelled_heading(const Eigen::Vector3d& euler_rad, const Eigen::Vector2d&
                     field.x() * cp + field.y() * sr * sp + field.z() * cr * sp);
 }
 
-/// What several channels need of one instant.
-struct Instant {
-  MotionPoint point;
-  Eigen::Matrix3d R;
-  Eigen::Vector3d v, omega;
-};
-
 double component(Channel channel, Channel first, const Eigen::Vector3d& vector) {
   return vector[static_cast<Eigen::Index>(channel) - static_cast<Eigen::Index>(first)];
 }
 
 }  // namespace
 
-Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
-                                              const std::vector<WindowReading>& readings,
-                                              const Calibration& calibration) const {
+void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carried_m,
+                           std::span<const WindowReading> readings, const Calibration& calibration,
+                           double* out) const {
   const auto value = [&](Nuisance nuisance) { return get(calibration, nuisance); };
   const auto vector = [&](Nuisance first) {
     return Eigen::Vector3d(calibration.segment<3>(static_cast<Eigen::Index>(first)));
@@ -45,100 +38,91 @@ Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
   const Eigen::Vector3d imu_turn = vector(Nuisance::imu_turn_x);
   const Eigen::Matrix3d doppler_from_body =
       Eigen::AngleAxisd(-value(Nuisance::doppler_turn), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  const auto instant_at = [&](double time_s) {
-    Instant now;
-    now.point = motion.at(time_s);
-    now.R = world_from_body(now.point.body.euler_rad);
-    now.v = now.point.body.velocity.head<3>();
-    now.omega = now.point.body.velocity.tail<3>();
-    return now;
-  };
-  const auto predict = [&](Channel channel, double time_s, const Instant& now) -> double {
-    const sim::Body& body = now.point.body;
+  const sim::Body& body = point.body;
+  const Eigen::Matrix3d R = world_from_body(body.euler_rad);
+  const Eigen::Vector3d v = body.velocity.head<3>(), omega = body.velocity.tail<3>();
+  const auto predict = [&](Channel channel) -> double {
     switch (channel) {
       case Channel::rate_x:
       case Channel::rate_y:
       case Channel::rate_z: {
-        const Eigen::Vector3d turned = now.omega - imu_turn.cross(now.omega);
+        const Eigen::Vector3d turned = omega - imu_turn.cross(omega);
         const Eigen::Vector3d all = turned + vector(Nuisance::rate_scale_x).cwiseProduct(turned);
         return component(channel, Channel::rate_x, all + vector(Nuisance::rate_bias_x));
       }
       case Channel::second_yaw_rate: {
-        const Eigen::Vector3d turned = now.omega - imu_turn.cross(now.omega);
+        const Eigen::Vector3d turned = omega - imu_turn.cross(omega);
         return (1 + value(Nuisance::second_yaw_rate_scale)) * turned.z() + value(Nuisance::second_yaw_rate_bias);
       }
       case Channel::force_x:
       case Channel::force_y:
       case Channel::force_z: {
         const Eigen::Vector3d& r = recorded_.imu_place_m;
-        const Eigen::Vector3d angular = now.point.acceleration.tail<3>();
-        const Eigen::Vector3d force = Eigen::Vector3d(now.point.acceleration.head<3>()) + now.omega.cross(now.v) +
-                                      angular.cross(r) + now.omega.cross(now.omega.cross(r)) -
-                                      base::kGravity_m_s2 * now.R.row(2).transpose();
+        const Eigen::Vector3d angular = point.acceleration.tail<3>();
+        const Eigen::Vector3d force = Eigen::Vector3d(point.acceleration.head<3>()) + omega.cross(v) +
+                                      angular.cross(r) + omega.cross(omega.cross(r)) -
+                                      base::kGravity_m_s2 * R.row(2).transpose();
         return component(channel, Channel::force_x,
                          force - imu_turn.cross(force) + vector(Nuisance::force_bias_x));
       }
-      case Channel::roll: return now.point.tilt_rad.x() + value(Nuisance::roll_offset);
-      case Channel::pitch: return now.point.tilt_rad.y() + value(Nuisance::pitch_offset);
+      case Channel::roll: return point.tilt_rad.x() + value(Nuisance::roll_offset);
+      case Channel::pitch: return point.tilt_rad.y() + value(Nuisance::pitch_offset);
       case Channel::heading: {
         Eigen::Vector3d euler_rad = body.euler_rad;
         euler_rad.z() += value(Nuisance::heading_offset);
         const double heading =
             recorded_.tilt_lag_s <= 0
                 ? euler_rad.z()
-                : levelled_heading(euler_rad, now.point.tilt_rad, recorded_.dip_rad + value(Nuisance::dip));
+                : levelled_heading(euler_rad, point.tilt_rad, recorded_.dip_rad + value(Nuisance::dip));
         return heading + value(Nuisance::heading_sine) * std::sin(heading) +
                value(Nuisance::heading_cosine) * std::cos(heading);
       }
       case Channel::depth:
-        return body.position_m.z() + now.R.row(2).dot(recorded_.imu_place_m) + value(Nuisance::depth_offset);
+        return body.position_m.z() + R.row(2).dot(recorded_.imu_place_m) + value(Nuisance::depth_offset);
       case Channel::gauge_depth:
-        return body.position_m.z() + now.R.row(2).dot(recorded_.gauge_place_m) + value(Nuisance::gauge_offset);
+        return body.position_m.z() + R.row(2).dot(recorded_.gauge_place_m) + value(Nuisance::gauge_offset);
       case Channel::bottom_x:
       case Channel::bottom_y:
       case Channel::bottom_z: {
-        const Eigen::Vector3d there =
-            now.v + now.omega.cross(recorded_.doppler_place_m) + now.R.transpose() * current;
+        const Eigen::Vector3d there = v + omega.cross(recorded_.doppler_place_m) + R.transpose() * current;
         return component(channel, Channel::bottom_x,
                          (1 + value(Nuisance::doppler_scale)) * (doppler_from_body * there));
       }
       case Channel::water_x:
       case Channel::water_y:
       case Channel::water_z: {
-        const Eigen::Vector3d there = now.v + now.omega.cross(recorded_.doppler_place_m);
+        const Eigen::Vector3d there = v + omega.cross(recorded_.doppler_place_m);
         return component(channel, Channel::water_x,
                          (1 + value(Nuisance::doppler_scale)) * (doppler_from_body * there));
       }
       case Channel::north:
       case Channel::east: {
-        const Eigen::Vector3d there =
-            body.position_m + now.R * recorded_.antenna_place_m + (time_s - motion.begin_s) * current;
+        const Eigen::Vector3d there = body.position_m + R * recorded_.antenna_place_m + carried_m;
         return component(channel, Channel::north, there);
       }
       case Channel::north_velocity:
       case Channel::east_velocity: {
-        const Eigen::Vector3d there = now.R * (now.v + now.omega.cross(recorded_.antenna_place_m)) + current;
+        const Eigen::Vector3d there = R * (v + omega.cross(recorded_.antenna_place_m)) + current;
         return component(channel, Channel::north_velocity, there);
       }
     }
     return 0;
   };
-  // Readings of one instrument share their times, and come one channel after the other.
-  Eigen::VectorXd predicted(static_cast<Eigen::Index>(readings.size()));
-  for (std::size_t i = 0; i < readings.size(); ++i)
-    predicted[static_cast<Eigen::Index>(i)] =
-        predict(readings[i].channel, readings[i].time_s, instant_at(readings[i].time_s));
-  return predicted;
+  for (const WindowReading& reading : readings) *out++ = predict(reading.channel);
 }
 
-Eigen::VectorXd residuals(const std::vector<WindowReading>& readings, const Eigen::VectorXd& predicted) {
-  Eigen::VectorXd out(predicted.size());
-  for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const WindowReading& reading = readings[static_cast<std::size_t>(i)];
-    const double difference = reading.value - predicted[i];
-    out[i] = describe(reading.channel).is_angle ? base::wrapped(difference) : difference;
+Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
+                                              const std::vector<WindowReading>& readings,
+                                              const Calibration& calibration) const {
+  const Eigen::Vector3d current(get(calibration, Nuisance::current_north),
+                                get(calibration, Nuisance::current_east), 0);
+  Eigen::VectorXd predicted(static_cast<Eigen::Index>(readings.size()));
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const double time_s = readings[i].time_s;
+    at(motion.at(time_s), (time_s - motion.begin_s) * current, std::span(&readings[i], 1), calibration,
+       predicted.data() + i);
   }
-  return out;
+  return predicted;
 }
 
 }  // namespace navcal::identify

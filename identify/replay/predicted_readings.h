@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "identify/data/recorded_motion.h"
@@ -33,13 +34,13 @@ class PredictedReadings {
   [[nodiscard]] Eigen::VectorXd operator()(const ReplayedMotion& motion,
                                            const std::vector<WindowReading>& readings,
                                            const Calibration& calibration) const;
+  /// The same at one instant, with the distance that the water has carried the vehicle (c t above). One number for
+  /// each reading goes to `out`.
+  void at(const MotionPoint& point, const Eigen::Vector3d& carried_m, std::span<const WindowReading> readings,
+          const Calibration& calibration, double* out) const;
 
  private:
   const RecordedMotion& recorded_;
 };
-
-/// Reading less prediction, wrapped where the channel is an angle.
-[[nodiscard]] Eigen::VectorXd residuals(const std::vector<WindowReading>& readings,
-                                        const Eigen::VectorXd& predicted);
 
 }  // namespace navcal::identify

@@ -14,14 +14,14 @@ namespace {
 constexpr double kSteepest_rad = 88 * base::kRadiansPerDegree;
 constexpr double kFastest_m_s = 50, kFastestTurn_rad_s = 50;
 
+}  // namespace
+
 bool is_sane(const sim::Body& body) {
   // Written so that NaN is not.
   return body.velocity.head<3>().cwiseAbs().maxCoeff() < kFastest_m_s &&
          body.velocity.tail<3>().cwiseAbs().maxCoeff() < kFastestTurn_rad_s &&
          std::abs(body.euler_rad.y()) < kSteepest_rad && body.position_m.allFinite() && body.velocity.allFinite();
 }
-
-}  // namespace
 
 Eigen::Matrix3d world_from_body(const Eigen::Vector3d& euler_rad) {
   return base::rotation_of({euler_rad.x(), euler_rad.y(), euler_rad.z()});
@@ -32,12 +32,6 @@ MotionPoint point_of(const StateVector& state) {
   point.body = {state.segment<3>(0), state.segment<3>(3), state.segment<6>(6)};
   point.tilt_rad = state.tail<2>();
   return point;
-}
-
-StateVector state_of(const MotionPoint& point) {
-  StateVector state;
-  state << point.body.position_m, point.body.euler_rad, point.body.velocity, point.tilt_rad;
-  return state;
 }
 
 void add_lagged_tilt(ReplayedMotion& motion, double lag_s) {
@@ -71,35 +65,6 @@ MotionPoint ReplayedMotion::at(double time_s) const {
   point.acceleration = a.acceleration + s * (b.acceleration - a.acceleration);
   point.tilt_rad = a.tilt_rad + s * (b.tilt_rad - a.tilt_rad);
   return point;
-}
-
-std::optional<ReplayedMotion> replay(const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& actuators,
-                                     double delay_s, double begin_s, std::size_t steps, const StateVector& begin,
-                                     double tilt_lag_s) {
-  ReplayedMotion motion{begin_s, {}};
-  motion.points.reserve(steps + 1);
-  sim::ActuatorValues held = sim::ActuatorValues::neutral(vehicle.layout());
-  sim::Body body = point_of(begin).body;
-  const auto add_point = [&](double time_s) {
-    actuators.at(time_s - delay_s, held);
-    const sim::LayoutVehicle::Held now = vehicle.hold(held);
-    MotionPoint point;
-    point.body = body;
-    point.acceleration = now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now);
-    motion.points.push_back(point);
-  };
-  for (std::size_t k = 0; k < steps; ++k) {
-    if (!is_sane(body)) return std::nullopt;
-    const double time_s = begin_s + ReplayedMotion::kStep_s * static_cast<double>(k);
-    add_point(time_s);
-    actuators.mean(time_s - delay_s, ReplayedMotion::kStep_s, held);
-    body = vehicle.step(body, held, ReplayedMotion::kStep_s).body;
-  }
-  if (!is_sane(body)) return std::nullopt;
-  add_point(begin_s + ReplayedMotion::kStep_s * static_cast<double>(steps));
-  motion.points.front().tilt_rad = begin.tail<2>();
-  add_lagged_tilt(motion, tilt_lag_s);
-  return motion;
 }
 
 }  // namespace navcal::identify

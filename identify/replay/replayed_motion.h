@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "identify/data/actuator_inputs.h"
@@ -24,10 +23,11 @@ struct MotionPoint {
 
 /// Rotation of a vector from the body to the world, by roll, pitch and yaw.
 [[nodiscard]] Eigen::Matrix3d world_from_body(const Eigen::Vector3d& euler_rad);
+/// Within what any vehicle does: pitch below 88 degrees, below 50 m/s and 50 rad/s, and all numbers finite.
+[[nodiscard]] bool is_sane(const sim::Body& body);
 [[nodiscard]] MotionPoint point_of(const StateVector& state);
-[[nodiscard]] StateVector state_of(const MotionPoint& point);
 
-/// The vehicle of a layout under recorded actuators from one state on, in steps of kReplayStep_s.
+/// A motion at equal steps of time.
 struct ReplayedMotion {
   static constexpr double kStep_s = 0.01;
 
@@ -36,17 +36,9 @@ struct ReplayedMotion {
 
   /// Velocity by cubic interpolation with the accelerations, all else linear.
   [[nodiscard]] MotionPoint at(double time_s) const;
-  [[nodiscard]] const MotionPoint& end() const { return points.back(); }
 };
 
 /// Fills in the lagged tilt of all points but the first.
 void add_lagged_tilt(ReplayedMotion& motion, double lag_s);
-
-/// nullopt: the motion leaves all bounds (no number, pitch beyond 88 degrees, or speeds that no vehicle has).
-/// The actuators are `delay_s` later than recorded. Without a lag of the tilt sensor its tilt is that of the body.
-[[nodiscard]] std::optional<ReplayedMotion> replay(const sim::LayoutVehicle& vehicle,
-                                                   const ActuatorTrajectory& actuators, double delay_s,
-                                                   double begin_s, std::size_t steps, const StateVector& begin,
-                                                   double tilt_lag_s);
 
 }  // namespace navcal::identify

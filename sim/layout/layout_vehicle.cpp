@@ -71,11 +71,12 @@ LayoutVehicle::Change LayoutVehicle::change(const Body& body, const Held& held) 
   return change;
 }
 
-LayoutVehicle::Step LayoutVehicle::held_step(const Body& body, const Held& held, double step_s) const {
-  const Change k1 = change(body, held);
-  const Change k2 = change(moved(body, k1, step_s / 2), held);
-  const Change k3 = change(moved(body, k2, step_s / 2), held);
-  const Change k4 = change(moved(body, k3, step_s), held);
+LayoutVehicle::Step LayoutVehicle::moved_step(const Body& body, const Held& begin, const Held& middle,
+                                              const Held& end, double step_s) const {
+  const Change k1 = change(body, begin);
+  const Change k2 = change(moved(body, k1, step_s / 2), middle);
+  const Change k3 = change(moved(body, k2, step_s / 2), middle);
+  const Change k4 = change(moved(body, k3, step_s), end);
   const Change mean{(k1.position_m_s + 2 * k2.position_m_s + 2 * k3.position_m_s + k4.position_m_s) / 6,
                     (k1.euler_rad_s + 2 * k2.euler_rad_s + 2 * k3.euler_rad_s + k4.euler_rad_s) / 6,
                     (k1.velocity + 2 * k2.velocity + 2 * k3.velocity + k4.velocity) / 6};

@@ -59,7 +59,12 @@ class LayoutVehicle {
     return held_step(body, hold(actuators, influences), step_s);
   }
   /// The same with what hold() gave.
-  [[nodiscard]] Step held_step(const Body& body, const Held& held, double step_s) const;
+  [[nodiscard]] Step held_step(const Body& body, const Held& held, double step_s) const {
+    return moved_step(body, held, held, held, step_s);
+  }
+  /// The same with actuators that move: at the step's begin, middle and end.
+  [[nodiscard]] Step moved_step(const Body& body, const Held& begin, const Held& middle, const Held& end,
+                                double step_s) const;
   /// The body after one step of the midpoint rule, of second order: for an estimator, whose next reading corrects
   /// more than what this leaves out. Actuators are means over the step's first half and over all of it: of the
   /// latter alone it would not tell when in the step a fin moved.

@@ -18,15 +18,59 @@ TEST(IdentifyEstimate, ErrorsAreAsStated) {
   const VehicleCase of = vehicle_case("micro");
   const DrawnVehicle drawn = draw_vehicle(of, 5);
   const std::vector<RecordedMotion> recordings{draw_recording(of, drawn.layout, 24, 6)};
-  FitProblem problem(of.prior, uncertain_parameters(of.prior), recordings, {});
+  PredictionErrorProblem problem(of.prior, uncertain_parameters(of.prior), recordings, {});
   const Estimate found = estimate(problem, kSilent);
   double sum = 0;
   for (Eigen::Index i = 0; i < drawn.truth.size(); ++i) {
-    const double error = (found.unknowns.parameters[i] - drawn.truth[i]) / found.stds[i];
+    const double error = (found.unknowns[i] - drawn.truth[i]) / found.stds[i];
     EXPECT_LT(std::abs(error), 4) << problem.parameters()[static_cast<std::size_t>(i)].name;
     sum += error * error;
   }
   EXPECT_LT(std::sqrt(sum / static_cast<double>(drawn.truth.size())), 1.6);
+}
+
+/// Ratios of force over mass to the truth, in the mean over recordings of the ferry under control.
+Eigen::Vector3d steered_forces(bool is_coloured, std::vector<double>* surge_errors = nullptr) {
+  constexpr std::uint64_t kSeeds = 2;
+  const VehicleCase of = vehicle_case("ferry");
+  config::Layout truth = of.prior;
+  for (auto& thruster : truth.thrusters) thruster.force_scale = 1;
+  const auto parameters = uncertain_parameters(of.prior);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const std::vector<RecordedMotion> recordings{draw_steered(truth, 120, seed)};
+    PredictionErrorProblem problem(of.prior, parameters, recordings, {.is_coloured = is_coloured});
+    const Estimate found = estimate(problem, kSilent);
+    const Eigen::VectorXd values = found.unknowns.head(std::ssize(parameters));
+    mean += force_over_mass(with_values(of.prior, parameters, values), truth) / kSeeds;
+    if (surge_errors != nullptr) surge_errors->push_back((values[2] - 1) / found.stds[2]);
+  }
+  return mean;
+}
+
+TEST(IdentifyEstimate, ForcesOfASteeredVehicleDoNotCollapse) {
+  std::vector<double> errors;
+  const Eigen::Vector3d forces = steered_forces(true, &errors);
+  EXPECT_GT(forces.minCoeff(), 0.75) << forces.transpose();
+  EXPECT_LT(forces.maxCoeff(), 1.15) << forces.transpose();
+  for (const double error : errors) EXPECT_LT(std::abs(error), 3);
+}
+
+TEST(IdentifyEstimate, WithoutColourTheyDo) {
+  const Eigen::Vector3d forces = steered_forces(false);
+  EXPECT_LT(forces.minCoeff(), 0.75) << forces.transpose();
+}
+
+TEST(Identify, ThinnedReadingsAreOneInAnInterval) {
+  const VehicleCase of = vehicle_case("micro");
+  const RecordedMotion all = draw_recording(of, of.prior, 8, 3);
+  const RecordedMotion thin = thinned(all, 1);
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    EXPECT_EQ(thin.channels[c].empty(), all.channels[c].empty());
+    for (std::size_t i = 1; i < thin.channels[c].size(); ++i)
+      EXPECT_GE(thin.channels[c][i].time_s, thin.channels[c][i - 1].time_s + 1 - 1e-3);
+  }
+  EXPECT_EQ(thinned(all, 0)[Channel::rate_x].size(), all[Channel::rate_x].size());
 }
 
 /// A small problem: the micro vehicle with a few uncertain numbers.
@@ -74,7 +118,7 @@ TEST(Identify, LateCommandsAreSaid) {
 TEST(Identify, SaturatedCommandsAreSaid) {
   IdentifyRequest request = small_request(8);
   for (double& value : request.recordings[0].signals["output1"].values) value = request.prior.thrusters[0].high;
-  FitProblem problem(request.prior, uncertain_parameters(request.prior), request.recordings, {});
+  const PredictionErrorProblem problem(request.prior, uncertain_parameters(request.prior), request.recordings, {});
   const auto words = problem.oddities();
   ASSERT_EQ(words.size(), 1U);
   EXPECT_NE(words[0].find("saturated: output1 stands at a limit 100 % of the time"), std::string::npos)

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/identify/identification_case.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -79,6 +82,40 @@ VehicleCase micro() {
   return of;
 }
 
+/// A ferry of 5 m and 1700 kg: two thrusters across, two ahead. Its forces are thought 40 % too large.
+VehicleCase ferry() {
+  VehicleCase of{"ferry", {}, {}, false};
+  config::Layout& layout = of.prior;
+  layout.name = "ferry";
+  layout.water_density_kg_m3 = 1000;
+  layout.body = {.mass_kg = 1700, .gravity_centre_m = {0, 0, 0.3}, .inertia_kg_m2 = {900, 3200, 3600, 0, 0, 0}};
+  layout.body.is_neutral = true;
+  layout.body.set_buoyancy(1000);
+  const std::array<double, 6> added{150, 900, 1700, 300, 2000, 1800}, linear{60, 250, 2000, 900, 4000, 900};
+  for (std::size_t i = 0; i < 6; ++i) {
+    layout.added_mass.matrix_kg[7 * i] = added[i];
+    layout.damping.linear[7 * i] = linear[i];
+  }
+  const std::array<config::LayoutVector, 4> places{{{1.8, 0, 0}, {-1.8, 0, 0}, {-2, 0.8, 0}, {-2, -0.8, 0}}};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    config::LayoutThruster thruster;
+    thruster.name = "t" + std::to_string(i + 1);
+    thruster.place_m = places[i];
+    thruster.direction = i < 2 ? config::LayoutVector{0, 1, 0} : config::LayoutVector{1, 0, 0};
+    thruster.unit = config::CommandUnit::percent;
+    thruster.low = -100;
+    thruster.high = 100;
+    thruster.table_command = {-100, 100};
+    thruster.table_force_N = {-400, 400};
+    thruster.force_scale = 1.4;
+    layout.thrusters.push_back(thruster);
+    add(layout, "thruster[" + std::to_string(i + 1) + "].force_scale", {0.7});
+  }
+  add(layout, "added_mass.matrix", {100, 500, 0, 0, 0, 1000});
+  add(layout, "damping.linear", {60, 200, 0, 0, 0, 600});
+  return of;
+}
+
 VehicleCase reference() {
   VehicleCase of{"reference", shipped("reference"),
                  joined({{{Channel::rate_x, 20, 0.0018},
@@ -116,6 +153,7 @@ VehicleCase vehicle_case(const std::string& name) {
   if (name == "rov-imu") return rov(name, joined({kInertial, kAttitude, {kDepth}}));
   if (name == "micro") return micro();
   if (name == "reference") return reference();
+  if (name == "ferry") return ferry();
   throw std::invalid_argument("no vehicle " + name);
 }
 
@@ -191,6 +229,78 @@ RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth
     return commands;
   };
   return simulated_motion(truth, request);
+}
+
+RecordedMotion draw_steered(const config::Layout& truth, double seconds, std::uint64_t seed) {
+  constexpr double kOrders_Hz = 10, kStation_s = 30, kGust_s = 12, kStep_s = 0.01, kChannels_Hz = 5;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  SimulatedMotionRequest request;
+  request.seconds = seconds;
+  request.seed = seed + 1;
+  for (const auto& [channel, std] : std::initializer_list<std::pair<Channel, double>>{{Channel::roll, 0.003},
+                                                                                      {Channel::pitch, 0.003},
+                                                                                      {Channel::heading, 0.003},
+                                                                                      {Channel::rate_x, 0.003},
+                                                                                      {Channel::rate_y, 0.003},
+                                                                                      {Channel::rate_z, 0.003},
+                                                                                      {Channel::north, 0.05},
+                                                                                      {Channel::east, 0.05},
+                                                                                      {Channel::bottom_x, 0.02},
+                                                                                      {Channel::bottom_y, 0.02},
+                                                                                      {Channel::bottom_z, 0.02}})
+    request.channels.push_back({channel, kChannels_Hz, std});
+  const auto gusts = std::make_shared<std::vector<sim::Vector6>>();
+  sim::Vector6 size = sim::Vector6::Zero(), gust = size;
+  size << 0.08, 0.08, 0, 0, 0, 0.03;
+  for (double time_s = 0; time_s < seconds + 1; time_s += kStep_s) {
+    for (Eigen::Index i = 0; i < 6; ++i)
+      gust[i] += -kStep_s / kGust_s * gust[i] + std::sqrt(2 * kStep_s / kGust_s) * size[i] * normal(random);
+    gusts->push_back(gust);
+  }
+  request.disturbance = [=](double time_s) { return (*gusts)[static_cast<std::size_t>(time_s / kStep_s + 0.5)]; };
+  const auto stations = std::make_shared<std::vector<Eigen::Vector3d>>();
+  for (double time_s = 0; time_s < seconds + kStation_s; time_s += kStation_s)
+    stations->push_back({0.7 * normal(random), 0.7 * normal(random), 0.1 * normal(random)});
+  const auto sent = std::make_shared<std::vector<sim::ActuatorValues>>();
+  const auto allocator = std::make_shared<autopilot::Allocator>(truth);
+  const auto integral = std::make_shared<Eigen::Vector3d>(Eigen::Vector3d::Zero());
+  request.commands = [=](double time_s, const sim::Body& body) {
+    const Eigen::Vector3d& station = (*stations)[static_cast<std::size_t>(time_s / kStation_s)];
+    const double yaw = body.euler_rad.z();
+    const Eigen::Vector2d away = Eigen::Rotation2Dd(-yaw) * (station - body.position_m).head<2>();
+    const Eigen::Vector3d error(away.x(), away.y(), std::remainder(station.z() - yaw, 2 * std::numbers::pi));
+    *integral += error / kOrders_Hz;
+    *integral = integral->cwiseMax(-20).cwiseMin(20);
+    const Eigen::Vector3d velocity(body.velocity[0], body.velocity[1], body.velocity[5]);
+    const Eigen::Vector3d wanted = 0.09 * error - 0.4 * velocity + 0.005 * *integral;
+    autopilot::AllocationRequest allocation;
+    allocation.weights << 1, 1, 0, 0, 0, 1;
+    allocation.wanted << 1850 * wanted[0], 2600 * wanted[1], 0, 0, 0, 5400 * wanted[2];
+    sim::ActuatorValues commands = sim::ActuatorValues::neutral(truth);
+    commands.thrusters = allocator->allocate(allocation).thruster_commands;
+    sent->push_back(commands);
+    const auto late = static_cast<std::size_t>(kFerryDelay_s * kOrders_Hz + 0.5);
+    return sent->size() > late ? (*sent)[sent->size() - 1 - late] : sim::ActuatorValues::neutral(truth);
+  };
+  RecordedMotion recorded = simulated_motion(truth, request);
+  // The recording has the commands when they are sent.
+  for (auto& [name, signal] : recorded.signals)
+    for (double& time_s : signal.times_s) time_s -= kFerryDelay_s;
+  return recorded;
+}
+
+Eigen::Vector3d force_over_mass(const config::Layout& of, const config::Layout& truth) {
+  const auto of_layout = [](const config::Layout& layout) {
+    const auto scale = [&](std::size_t a) {
+      return (layout.thrusters[a].force_scale + layout.thrusters[a + 1].force_scale) / 2;
+    };
+    const auto& added = layout.added_mass.matrix_kg;
+    return Eigen::Vector3d(scale(2) / (layout.body.mass_kg + added[0]),
+                           scale(0) / (layout.body.mass_kg + added[7]),
+                           scale(0) / (layout.body.inertia_kg_m2[2] + added[35]));
+  };
+  return of_layout(of).cwiseQuotient(of_layout(truth));
 }
 
 RecordedMotion part_of(const RecordedMotion& motion, double from_s, double to_s) {

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/filter/filter_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/angles.h"
+
+namespace navcal::identify {
+namespace {
+
+constexpr double kDifference = 1e-5;  ///< step of the finite differences, SI
+constexpr Eigen::Index kEuler = 3, kVelocity = 6, kTilt = 12;
+
+double difference_of(const WindowReading& reading, double a, double b) {
+  return describe(reading.channel).is_angle ? base::wrapped(a - b) : a - b;
+}
+
+}  // namespace
+
+FilterModel::FilterModel(const sim::LayoutVehicle& vehicle, std::shared_ptr<const ActuatorTrajectory> actuators,
+                         const RecordedMotion& recorded, const Calibration& calibration)
+    : vehicle_(vehicle), actuators_(std::move(actuators)), calibration_(calibration), instruments_(recorded),
+      tilt_lag_s_(recorded.tilt_lag_s) {}
+
+FilterModel::Moved FilterModel::moved_over(double time_s, double step_s) const {
+  const double from_s = time_s - get(calibration_, Nuisance::actuator_delay);
+  sim::ActuatorValues begin = sim::ActuatorValues::neutral(vehicle_.layout()), end = begin, middle = begin;
+  actuators_->at(from_s, begin);
+  actuators_->at(from_s + step_s, end);
+  actuators_->mean(from_s, step_s, middle);
+  const auto solve = [](sim::ActuatorNumbers& mean, const sim::ActuatorNumbers& a, const sim::ActuatorNumbers& b) {
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (6 * mean[i] - a[i] - b[i]) / 4;
+  };
+  solve(middle.thrusters, begin.thrusters, end.thrusters);
+  solve(middle.surfaces_rad, begin.surfaces_rad, end.surfaces_rad);
+  solve(middle.ballasts_N, begin.ballasts_N, end.ballasts_N);
+  solve(middle.masses_m, begin.masses_m, end.masses_m);
+  return {vehicle_.hold(begin), vehicle_.hold(middle), vehicle_.hold(end)};
+}
+
+std::unique_ptr<const sim::LayoutVehicle::Held> FilterModel::held_for(std::span<const WindowReading> readings,
+                                                                      double time_s) const {
+  for (const WindowReading& reading : readings) {
+    if (reading.channel < Channel::force_x || reading.channel > Channel::force_z) continue;
+    sim::ActuatorValues values = sim::ActuatorValues::neutral(vehicle_.layout());
+    actuators_->at(time_s - get(calibration_, Nuisance::actuator_delay), values);
+    return std::unique_ptr<const sim::LayoutVehicle::Held>(new sim::LayoutVehicle::Held(vehicle_.hold(values)));
+  }
+  return nullptr;
+}
+
+FilterState FilterModel::after(const FilterState& state, const Moved& moved, double step_s, double tau_s) const {
+  sim::Body body = point_of(state.head<kStates>()).body;
+  const sim::Vector6 kick = step_s / 2 * state.tail<6>();
+  body.velocity += kick;
+  body = vehicle_.moved_step(body, moved.begin, moved.middle, moved.end, step_s).body;
+  body.velocity += kick;
+  body.position_m.x() += step_s * get(calibration_, Nuisance::current_north);
+  body.position_m.y() += step_s * get(calibration_, Nuisance::current_east);
+  FilterState end;
+  const Eigen::Vector2d then = state.segment<2>(kEuler), now = body.euler_rad.head<2>();
+  end << body.position_m, body.euler_rad, body.velocity, now, std::exp(-step_s / tau_s) * state.tail<6>();
+  if (tilt_lag_s_ > 0) {
+    // Exactly, for an input that is linear over the step.
+    const Eigen::Vector2d behind = tilt_lag_s_ / step_s * (now - then);
+    end.segment<2>(kTilt) =
+        now - behind + std::exp(-step_s / tilt_lag_s_) * (state.segment<2>(kTilt) - then + behind);
+  }
+  return end;
+}
+
+StepDerivatives FilterModel::derivatives(const FilterState& state, const FilterState& end, const Moved& actuators,
+                                         double step_s, double tau_s) const {
+  StepDerivatives all = StepDerivatives::Zero();
+  for (Eigen::Index i = 0; i < all.cols(); ++i) {
+    if (i == 2) continue;
+    FilterState moved = state;
+    moved[kEuler + i] += kDifference;
+    all.col(i) = (after(moved, actuators, step_s, tau_s) - end).head<kStates>() / kDifference;
+  }
+  // Yaw turns the way that the vehicle goes through the water, and nothing else.
+  all(0, 2) = -(end[1] - state[1] - step_s * get(calibration_, Nuisance::current_east));
+  all(1, 2) = end[0] - state[0] - step_s * get(calibration_, Nuisance::current_north);
+  all(5, 2) = 1;
+  return all;
+}
+
+FilterMatrix transition_of(const StepDerivatives& derivatives, double tilt_lag_s, double step_s, double tau_s) {
+  FilterMatrix all = FilterMatrix::Zero();
+  all.topLeftCorner<3, 3>().setIdentity();
+  all.block<kStates, 9>(0, kEuler) = derivatives;
+  if (tilt_lag_s > 0) all.block<2, 2>(kTilt, kTilt).diagonal().setConstant(std::exp(-step_s / tilt_lag_s));
+  all.block<kStates, 6>(0, kStates) = step_s / 2 * derivatives.rightCols<6>();
+  all.block<6, 6>(kVelocity, kStates).diagonal().array() += step_s / 2;
+  all.bottomRightCorner<6, 6>().diagonal().setConstant(std::exp(-step_s / tau_s));
+  return all;
+}
+
+void FilterModel::predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
+                          std::span<const WindowReading> readings, double* out) const {
+  MotionPoint point = point_of(state.head<kStates>());
+  if (held != nullptr)
+    point.acceleration =
+        held->mass_inverse * vehicle_.force(point.body.velocity, sim::down_of(point.body.euler_rad), *held) +
+        state.tail<6>();
+  instruments_.at(point, Eigen::Vector3d::Zero(), readings, calibration_, out);
+}
+
+void FilterModel::innovations(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+                              double* out) const {
+  const auto held = held_for(readings, time_s);
+  predict(state, held.get(), readings, out);
+  for (std::size_t i = 0; i < readings.size(); ++i) out[i] = difference_of(readings[i], readings[i].value, out[i]);
+}
+
+void FilterModel::sensitivities(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+                                std::span<FilterState> out) const {
+  const auto held = held_for(readings, time_s);
+  std::fill(out.begin(), out.end(), FilterState::Zero());
+  std::vector<double> here(readings.size()), there(readings.size());
+  predict(state, held.get(), readings, here.data());
+  for (Eigen::Index s = 0; s < (held ? kFilterStates : kStates); ++s) {
+    FilterState moved = state;
+    moved[s] += kDifference;
+    predict(moved, held.get(), readings, there.data());
+    for (std::size_t i = 0; i < readings.size(); ++i)
+      out[i][s] = difference_of(readings[i], there[i], here[i]) / kDifference;
+  }
+}
+
+}  // namespace navcal::identify

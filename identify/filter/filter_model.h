@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+
+#include "identify/data/actuator_inputs.h"
+#include "identify/replay/predicted_readings.h"
+#include "sim/layout/layout_vehicle.h"
+
+namespace navcal::identify {
+
+/// State of the filter: position, Euler angles, velocity and rates of the body, roll and pitch of a tilt sensor
+/// that lags (StateVector, but its position is in the world and contains what the water carries), then the six
+/// accelerations of the disturbance d, in body axes. SI.
+inline constexpr Eigen::Index kFilterStates = kStates + 6;
+using FilterState = Eigen::Matrix<double, kFilterStates, 1>;
+using FilterMatrix = Eigen::Matrix<double, kFilterStates, kFilterStates>;
+
+/// Derivatives of a step's end by the Euler angles and velocities at its begin. The rest of the transition matrix
+/// follows from them: transition_of().
+using StepDerivatives = Eigen::Matrix<double, kStates, 9>;
+
+/// A vehicle under its recorded actuators, disturbed by accelerations, and its instruments.
+class FilterModel {
+ public:
+  /// `vehicle` and `recorded` must outlive it.
+  FilterModel(const sim::LayoutVehicle& vehicle, std::shared_ptr<const ActuatorTrajectory> actuators,
+              const RecordedMotion& recorded, const Calibration& calibration);
+
+  /// Actuators at a step's begin, middle and end. Simpson's mean of them is that of the step: what the middle is
+  /// not where a command jumps.
+  struct Moved {
+    sim::LayoutVehicle::Held begin, middle, end;
+  };
+  [[nodiscard]] Moved moved_over(double time_s, double step_s) const;
+  /// The state a step later. d acts as a change of velocity, half before and half behind the Runge-Kutta step, and
+  /// decays with tau.
+  [[nodiscard]] FilterState after(const FilterState& state, const Moved& moved, double step_s, double tau_s) const;
+  /// By finite differences about `state`, whose end is `end`.
+  [[nodiscard]] StepDerivatives derivatives(const FilterState& state, const FilterState& end, const Moved& moved,
+                                            double step_s, double tau_s) const;
+  /// Readings less predictions at one instant, angles wrapped, to `out`.
+  void innovations(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+                   double* out) const;
+  /// Derivatives of the predictions by the state, one column for each reading.
+  void sensitivities(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+                     std::span<FilterState> out) const;
+
+ private:
+  void predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
+               std::span<const WindowReading> readings, double* out) const;
+  /// Actuators where an accelerometer needs them, else none.
+  [[nodiscard]] std::unique_ptr<const sim::LayoutVehicle::Held> held_for(std::span<const WindowReading> readings,
+                                                                         double time_s) const;
+
+  const sim::LayoutVehicle& vehicle_;
+  std::shared_ptr<const ActuatorTrajectory> actuators_;
+  Calibration calibration_;
+  PredictedReadings instruments_;
+  double tilt_lag_s_;
+};
+
+[[nodiscard]] FilterMatrix transition_of(const StepDerivatives& derivatives, double tilt_lag_s, double step_s,
+                                         double tau_s);
+
+}  // namespace navcal::identify

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/filter/filtered_replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/parallel.h"
+#include "identify/replay/measured_state.h"
+
+namespace navcal::identify {
+namespace {
+
+constexpr double kLongestStep_s = 0.1, kTogether_s = 0.001;
+constexpr double kSilence_s = 10;  ///< of all instruments, behind which the filter starts anew
+constexpr double kLeftOut_s = 5;   ///< before a place where it diverges
+constexpr double kRunIn_s = 1;     ///< what the actuators did before the recording is not known
+constexpr double kSettling_s =
+    1;  ///< innovations of a simulated vehicle: 28 times the stated power in 0.5 s, then 2.5, then 1
+constexpr double kColumnPart = 1e-3;  ///< of a prior's standard deviation
+constexpr double kDelayColumn_s = 0.005;
+
+/// Random walks that the disturbance does not contain, per root of a second: waves and the water's own motion in
+/// the position, and rounding of the attitude.
+constexpr double kDrift_m = 0.01, kSink_m = 0.003, kTurn_rad = 1e-4;
+
+/// Errors of a start. The velocity is not measured everywhere.
+FilterState first_stds() {
+  FilterState all;
+  all << 30, 30, 5, 0.3, 0.3, 0.5, 1, 1, 1, 0.5, 0.5, 0.5, 0.3, 0.3, sim::Vector6::Zero();
+  return all;
+}
+
+FilterState growth_of(const FilterNoises& noises, double step_s) {
+  FilterState all = FilterState::Zero();
+  all.head<6>() << kDrift_m * kDrift_m, kDrift_m * kDrift_m, kSink_m * kSink_m,
+      Eigen::Vector3d::Constant(kTurn_rad * kTurn_rad);
+  all.segment<6>(6) = noises.white.cwiseAbs2();
+  all.head<12>() *= step_s;
+  all.tail<6>() = -std::expm1(-2 * step_s / noises.tau_s) * noises.coloured.cwiseAbs2();
+  return all;
+}
+
+/// Sequential updates of one step. `correction` is that of the state by the readings so far.
+void update(std::span<FilterPass::Reading> readings, std::span<const double> variances, bool is_settling,
+            FilterMatrix& covariance, FilterState& correction) {
+  correction.setZero();
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    FilterPass::Reading& reading = readings[i];
+    const FilterState across = covariance * reading.sensitivity;
+    reading.variance = reading.sensitivity.dot(across) + variances[i];
+    reading.gain = across / reading.variance;
+    const double innovation = reading.innovation - reading.sensitivity.dot(correction);
+    reading.white = innovation / std::sqrt(reading.variance);
+    reading.is_settling = is_settling;
+    if (is_settling) {
+      reading.variance = 1;
+      reading.white = 0;
+    }
+    correction += reading.gain * innovation;
+    covariance.noalias() -= across * reading.gain.transpose();
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd FilterPass::white() const {
+  Eigen::VectorXd all(std::ssize(readings));
+  for (Eigen::Index i = 0; i < all.size(); ++i) all[i] = readings[static_cast<std::size_t>(i)].white;
+  return all;
+}
+
+double FilterPass::power() const { return white().squaredNorm(); }
+
+double FilterPass::log_det() const {
+  double sum = 0;
+  for (const Reading& reading : readings) sum += std::log(reading.variance);
+  return sum;
+}
+
+double FilterPass::mean_square() const {
+  const auto count =
+      std::count_if(readings.begin(), readings.end(), [](const auto& one) { return !one.is_settling; });
+  return power() / std::max(static_cast<double>(count), 1.0);
+}
+
+FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> parameters,
+                               const RecordedMotion& recorded, const FilterNoises& noises, unsigned threads)
+    : layout_(std::move(layout)), parameters_(std::move(parameters)), recorded_(recorded), noises_(noises),
+      threads_(threads), inputs_(layout_, recorded) {
+  if (!inputs_.missing().empty()) throw std::invalid_argument(recorded.name + ": " + inputs_.missing().front());
+  if (!recorded.has(Channel::rate_x) && !recorded.has(Channel::rate_z) && !recorded.has(Channel::roll) &&
+      !recorded.has(Channel::heading) && !recorded.has(Channel::bottom_x) && !recorded.has(Channel::water_x))
+    throw std::invalid_argument(recorded.name +
+                                ": no rates, no attitude and no Doppler log: nothing measures the motion");
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    for (const Reading& reading : recorded.channels[c]) {
+      if (reading.std > 0)
+        readings_.push_back({static_cast<Channel>(c), reading.time_s, reading.value, reading.std});
+    }
+  }
+  std::stable_sort(readings_.begin(), readings_.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  const double begin_s = readings_.front().time_s + kRunIn_s;
+  std::erase_if(readings_, [&](const auto& reading) { return reading.time_s < begin_s; });
+  make_steps();
+  if (readings_.empty() || readings_.back().time_s - begin_s < kRunIn_s)
+    throw std::invalid_argument(fmt::format("{}: {:.1f} s with readings; at least {:.0f} s are needed",
+                                            recorded.name, recorded.duration_s, 2 * kRunIn_s));
+  // At a point where everything is at work.
+  std::vector<WindowReading> one_each;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    if (!recorded.channels[c].empty()) one_each.push_back({static_cast<Channel>(c), 0, 0, 1});
+  }
+  MotionPoint point = point_of(StateVector::LinSpaced(0.1, 0.3));
+  point.acceleration.setConstant(0.2);
+  const auto predicted = [&](const Calibration& with) {
+    Eigen::VectorXd all(std::ssize(one_each));
+    const Eigen::Vector3d carried(get(with, Nuisance::current_north), get(with, Nuisance::current_east), 0);
+    PredictedReadings(recorded).at(point, carried, one_each, with, all.data());
+    return all;
+  };
+  for (Eigen::Index i = 0; i < kNuisances; ++i)
+    matters_[static_cast<std::size_t>(i)] =
+        predicted(0.01 * Calibration::Unit(i)) != predicted(Calibration::Zero());
+  matters_[static_cast<std::size_t>(Nuisance::actuator_delay)] = true;
+}
+
+void FilteredReplay::make_steps() {
+  steps_.clear();
+  double now_s = -std::numeric_limits<double>::infinity(), started_s = now_s;
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    const double time_s = readings_[i].time_s;
+    if (!steps_.empty() && time_s - steps_.back().time_s < kTogether_s) {
+      ++steps_.back().count;
+      continue;
+    }
+    const auto is_between = [&](double broken_s) { return broken_s >= now_s && broken_s < time_s; };
+    if (time_s - now_s > kSilence_s || std::any_of(broken_s_.begin(), broken_s_.end(), is_between)) {
+      steps_.push_back({time_s, 0, true, true, i, 1});
+      started_s = time_s;
+    } else {
+      const double pieces = std::ceil((time_s - now_s) / kLongestStep_s), length_s = (time_s - now_s) / pieces;
+      for (double k = 1; k < pieces; ++k) steps_.push_back({now_s + k * length_s, length_s, false, false, i, 0});
+      steps_.push_back({time_s, length_s, false, time_s - started_s < kSettling_s, i, 1});
+    }
+    now_s = time_s;
+  }
+}
+
+std::size_t FilteredReplay::stretches() const {
+  return static_cast<std::size_t>(
+      std::count_if(steps_.begin(), steps_.end(), [](const Step& step) { return step.starts_anew; }));
+}
+
+Eigen::VectorXd FilteredReplay::start() const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(std::ssize(parameters_) + kNuisances);
+  values.head(std::ssize(parameters_)) = prior_values(parameters_);
+  return values;
+}
+
+std::size_t FilteredReplay::leave_out_diverging(const Eigen::VectorXd& values) {
+  constexpr std::size_t kMost = 1000;
+  const std::size_t all = readings_.size();
+  std::size_t count = 0;
+  for (;;) {
+    FilterPass pass;
+    const std::vector<double> places_s = run(values, pass, kMost);
+    if (places_s.empty()) return count;
+    count += places_s.size();
+    for (const double place_s : places_s)
+      std::erase_if(readings_, [&](const auto& reading) {
+        return reading.time_s > place_s - kLeftOut_s && reading.time_s <= place_s;
+      });
+    broken_s_.insert(broken_s_.end(), places_s.begin(), places_s.end());
+    make_steps();
+    if (2 * readings_.size() < all)
+      throw std::invalid_argument(fmt::format(
+          "{}: the vehicle of the layout leaves all bounds (pitch beyond 88 degrees, 50 m/s) within a few seconds "
+          "of most measured states, first at {:.1f} s; navcal vehicle check shows what is odd about it",
+          recorded_.name, places_s.front()));
+  }
+}
+
+FilteredReplay::Driven FilteredReplay::driven_by(const Eigen::VectorXd& values) const {
+  const config::Layout layout = with_values(layout_, parameters_, values.head(std::ssize(parameters_)));
+  return {sim::LayoutVehicle(layout), std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))};
+}
+
+FilterModel FilteredReplay::model_of(const Driven& driven, const Eigen::VectorXd& values) const {
+  return {driven.vehicle, driven.actuators, recorded_, values.tail<kNuisances>()};
+}
+
+FilterState FilteredReplay::measured(double time_s) const {
+  StateVector state = StateVector::Zero();
+  measure_state(recorded_, time_s, state);
+  FilterState all = FilterState::Zero();
+  all.head<kStates>() = state;
+  return all;
+}
+
+FilterMatrix FilteredReplay::first_covariance(const FilterNoises& noises) const {
+  FilterState variance = first_stds().cwiseAbs2();
+  variance.tail<6>() = noises.coloured.cwiseAbs2();
+  return variance.asDiagonal();
+}
+
+double FilteredReplay::variance_of(const WindowReading& reading, const FilterNoises& noises) const {
+  const double std = noises.factor[static_cast<std::size_t>(reading.channel)] * reading.std;
+  return std * std;
+}
+
+std::vector<double> FilteredReplay::run(const Eigen::VectorXd& values, FilterPass& pass, std::size_t most) const {
+  const Driven driven = driven_by(values);
+  const FilterModel model = model_of(driven, values);
+  pass.values = values;
+  pass.tau_s = noises_.tau_s;
+  pass.steps.resize(steps_.size());
+  pass.readings.resize(readings_.size());
+  std::vector<double> diverged_s, numbers;
+  std::vector<FilterState> sensitivities;
+  FilterState state;
+  FilterMatrix covariance;
+  bool starts_anew = false;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    pass.steps[k].time_s = step.time_s;
+    if (step.starts_anew || starts_anew) {
+      state = measured(step.time_s);
+      pass.steps[k].begin = state;
+      covariance = first_covariance(noises_);
+      starts_anew = false;
+    } else {
+      pass.steps[k].begin = state;
+      const auto moved = model.moved_over(step.time_s - step.length_s, step.length_s);
+      const FilterState end = model.after(state, moved, step.length_s, noises_.tau_s);
+      pass.steps[k].derivatives = model.derivatives(state, end, moved, step.length_s, noises_.tau_s);
+      const FilterMatrix transition =
+          transition_of(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises_.tau_s);
+      const FilterMatrix grown = transition * covariance * transition.transpose();
+      covariance = (grown + grown.transpose()) / 2;
+      covariance.diagonal() += growth_of(noises_, step.length_s);
+      state = end;
+    }
+    const auto readings = readings_of(step);
+    const std::span<FilterPass::Reading> out(pass.readings.data() + step.first, step.count);
+    numbers.resize(step.count);
+    sensitivities.resize(step.count);
+    if (step.count > 0 && is_sane(point_of(state.head<kStates>()).body)) {
+      model.innovations(state, step.time_s, readings, numbers.data());
+      model.sensitivities(state, step.time_s, readings, sensitivities);
+      for (std::size_t i = 0; i < step.count; ++i) {
+        out[i].innovation = numbers[i];
+        out[i].sensitivity = sensitivities[i];
+        numbers[i] = variance_of(readings[i], noises_);
+      }
+      update(out, numbers, step.is_settling, covariance, pass.steps[k].correction);
+      state += pass.steps[k].correction;
+    } else {
+      pass.steps[k].correction.setZero();
+    }
+    if (is_sane(point_of(state.head<kStates>()).body)) continue;
+    diverged_s.push_back(step.time_s);
+    if (diverged_s.size() >= most) break;
+    starts_anew = true;
+  }
+  return diverged_s;
+}
+
+std::optional<FilterPass> FilteredReplay::follow(const Eigen::VectorXd& values) const {
+  FilterPass pass;
+  if (!run(values, pass, 1).empty()) return std::nullopt;
+  return pass;
+}
+
+Eigen::VectorXd FilteredReplay::replayed(const FilterPass& pass, const Eigen::VectorXd& values) const {
+  const Driven driven = driven_by(values);
+  return replayed(pass, model_of(driven, values));
+}
+
+Eigen::VectorXd FilteredReplay::replayed(const FilterPass& pass, const FilterModel& model) const {
+  Eigen::VectorXd white(std::ssize(readings_));
+  std::vector<double> innovations;
+  FilterState state;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    state = step.starts_anew ? measured(step.time_s)
+                             : model.after(state, model.moved_over(step.time_s - step.length_s, step.length_s),
+                                           step.length_s, noises_.tau_s);
+    if (!is_sane(point_of(state.head<kStates>()).body)) return {};
+    if (step.count == 0) continue;
+    innovations.resize(step.count);
+    model.innovations(state, step.time_s, readings_of(step), innovations.data());
+    FilterState correction = FilterState::Zero();
+    for (std::size_t i = 0; i < step.count; ++i) {
+      const FilterPass::Reading& held = pass.readings[step.first + i];
+      const double innovation = innovations[i] - held.sensitivity.dot(correction);
+      white[static_cast<Eigen::Index>(step.first + i)] =
+          held.is_settling ? 0 : innovation / std::sqrt(held.variance);
+      correction += held.gain * innovation;
+    }
+    state += correction;
+  }
+  return white;
+}
+
+FilterLinearised FilteredReplay::linearise(const FilterPass& pass, std::span<const FilterColumn> columns) const {
+  FilterLinearised out{{}, pass.white(), pass.power(), pass.log_det()};
+  out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
+  const Driven nominal = driven_by(pass.values);
+  const auto parameters = std::ssize(parameters_);
+  const Calibration stds = nuisance_stds(recorded_);
+  base::in_parallel(threads_, columns.size(), [&](std::size_t c) {
+    const Eigen::Index at = columns[c].value;
+    double step = columns[c].step;
+    Eigen::VectorXd values = pass.values;
+    const Parameter* parameter = at < parameters ? &parameters_[static_cast<std::size_t>(at)] : nullptr;
+    if (parameter == nullptr && !matters(static_cast<Nuisance>(at - parameters))) return;
+    if (step == 0 && parameter != nullptr) {
+      step = parameter->step > 0 ? parameter->step : kColumnPart * parameter->prior_std;
+      if (values[at] + step > parameter->high) step = -step;
+    } else if (step == 0) {
+      const bool is_delay = at - parameters == static_cast<Eigen::Index>(Nuisance::actuator_delay);
+      step = is_delay ? kDelayColumn_s : kColumnPart * stds[at - parameters];
+    }
+    values[at] += step;
+    std::optional<Driven> moved;
+    if (parameter != nullptr) {
+      const config::Layout layout = with_values(layout_, parameters_, values.head(parameters));
+      moved = {sim::LayoutVehicle(layout),
+               moves_actuators(*parameter) ? std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))
+                                           : nominal.actuators};
+    }
+    const Eigen::VectorXd white = replayed(pass, model_of(moved ? *moved : nominal, values));
+    if (white.size() > 0) out.jacobian.col(static_cast<Eigen::Index>(c)) = (white - out.white) / step;
+  });
+  return out;
+}
+
+sim::Vector6 FilteredReplay::actuator_power(const FilterPass& pass) const {
+  constexpr std::size_t kEvery = 5;
+  const Driven driven = driven_by(pass.values);
+  const FilterModel model = model_of(driven, pass.values);
+  const auto neutral = driven.vehicle.hold(sim::ActuatorValues::neutral(layout_));
+  sim::Vector6 sum = sim::Vector6::Zero();
+  double count = 0;
+  for (std::size_t k = 0; k < steps_.size(); k += kEvery, ++count) {
+    const sim::Body body = point_of(pass.steps[k].begin.head<kStates>()).body;
+    const Eigen::Vector3d down = sim::down_of(body.euler_rad);
+    const auto moved = model.moved_over(steps_[k].time_s - steps_[k].length_s, steps_[k].length_s);
+    const auto& held = moved.middle;
+    const sim::Vector6 force =
+        driven.vehicle.force(body.velocity, down, held) - driven.vehicle.force(body.velocity, down, neutral);
+    sum += (held.mass_inverse * force).cwiseAbs2();
+  }
+  return sum / std::max(count, 1.0);
+}
+
+void FilteredReplay::filter_again(const FilterPass& pass, const FilterNoises& noises,
+                                  std::span<FilterPass::Reading> out) const {
+  FilterState apart = FilterState::Zero();  // of the states of the two filters
+  FilterMatrix covariance;
+  FilterState correction;
+  std::vector<double> variances;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    if (step.starts_anew) {
+      apart.setZero();
+      covariance = first_covariance(noises);
+    } else {
+      const FilterMatrix transition =
+          transition_of(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises.tau_s);
+      apart = transition * apart;
+      apart.tail<6>() += (std::exp(-step.length_s / noises.tau_s) - std::exp(-step.length_s / pass.tau_s)) *
+                         pass.steps[k].begin.tail<6>();
+      const FilterMatrix grown = transition * covariance * transition.transpose();
+      covariance = (grown + grown.transpose()) / 2;
+      covariance.diagonal() += growth_of(noises, step.length_s);
+    }
+    if (step.count == 0) continue;
+    const auto here = out.subspan(step.first, step.count);
+    variances.resize(step.count);
+    for (std::size_t i = 0; i < step.count; ++i) {
+      const FilterPass::Reading& then = pass.readings[step.first + i];
+      here[i].sensitivity = then.sensitivity;
+      here[i].innovation = then.innovation - then.sensitivity.dot(apart);
+      variances[i] = variance_of(readings_[step.first + i], noises);
+    }
+    update(here, variances, step.is_settling, covariance, correction);
+    apart += correction - pass.steps[k].correction;
+  }
+}
+
+}  // namespace navcal::identify

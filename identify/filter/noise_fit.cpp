@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/filter/noise_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace navcal::identify {
+namespace {
+
+constexpr int kNoiseSteps = 8;
+constexpr double kNoiseSettled = 1, kLogStep = 0.01, kLongestLog = 2;  ///< of a logarithm
+constexpr double kDisturbanceStd = 2, kFactorStd = 1;                  ///< of the priors, of logarithms
+constexpr double kWorthLonger = 4;                                     ///< twice a log likelihood
+
+/// The logarithms of the sizes that are fitted.
+class Sizes {
+ public:
+  Sizes(std::span<const FollowedRecording> recordings, bool is_coloured) : is_coloured_(is_coloured) {
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      const auto has = [&](const FollowedRecording& one) { return !one.filter->recording().channels[c].empty(); };
+      if (std::any_of(recordings.begin(), recordings.end(), has)) channels_.push_back(c);
+    }
+  }
+  [[nodiscard]] Eigen::VectorXd of(FilterNoises noises) const {
+    const auto places = places_in(noises);
+    Eigen::VectorXd logs(std::ssize(places));
+    for (std::size_t i = 0; i < places.size(); ++i) logs[static_cast<Eigen::Index>(i)] = std::log(*places[i]);
+    return logs;
+  }
+  [[nodiscard]] FilterNoises with(FilterNoises noises, const Eigen::VectorXd& logs) const {
+    const auto places = places_in(noises);
+    for (std::size_t i = 0; i < places.size(); ++i) *places[i] = std::exp(logs[static_cast<Eigen::Index>(i)]);
+    return noises;
+  }
+  [[nodiscard]] Eigen::VectorXd prior_stds() const {
+    const auto disturbances = static_cast<Eigen::Index>(is_coloured_ ? 12 : 6);
+    Eigen::VectorXd stds = Eigen::VectorXd::Constant(disturbances + std::ssize(channels_), kFactorStd);
+    stds.head(disturbances).setConstant(kDisturbanceStd);
+    return stds;
+  }
+
+ private:
+  [[nodiscard]] std::vector<double*> places_in(FilterNoises& noises) const {
+    std::vector<double*> places;
+    for (double& one : noises.white) places.push_back(&one);
+    if (is_coloured_)
+      for (double& one : noises.coloured) places.push_back(&one);
+    for (const std::size_t channel : channels_) places.push_back(&noises.factor[channel]);
+    return places;
+  }
+
+  bool is_coloured_;
+  std::vector<std::size_t> channels_;
+};
+
+/// Logarithms of the variances of all recordings and the innovations, one number for each reading.
+struct Filtered {
+  Eigen::ArrayXd log_variance, innovation;
+
+  [[nodiscard]] double cost() const { return (log_variance + innovation.square() * (-log_variance).exp()).sum(); }
+};
+
+Filtered filtered(std::span<const FollowedRecording> recordings, const FilterNoises& noises) {
+  Eigen::Index count = 0;
+  for (const auto& one : recordings) count += std::ssize(one.pass->readings);
+  Filtered all{Eigen::ArrayXd(count), Eigen::ArrayXd(count)};
+  Eigen::Index at = 0;
+  std::vector<FilterPass::Reading> readings;
+  for (const auto& one : recordings) {
+    readings.resize(one.pass->readings.size());
+    one.filter->filter_again(*one.pass, noises, readings);
+    for (const auto& reading : readings) {
+      all.log_variance[at] = std::log(reading.variance);
+      all.innovation[at++] = reading.white * std::sqrt(reading.variance);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterNoises& start, bool is_coloured,
+                    unsigned threads) {
+  const Sizes sizes(recordings, is_coloured);
+  const Eigen::VectorXd usual = sizes.of(FilterNoises{});
+  const Eigen::VectorXd precision = sizes.prior_stds().cwiseAbs2().cwiseInverse();
+  const auto cost_of = [&](const Filtered& of, const Eigen::VectorXd& logs) {
+    return of.cost() + precision.dot((logs - usual).cwiseAbs2());
+  };
+  Eigen::VectorXd logs = sizes.of(start);
+  Filtered here = filtered(recordings, start);
+  double cost = cost_of(here, logs);
+  for (int step = 0; step < kNoiseSteps; ++step) {
+    const Eigen::Index n = logs.size(), rows = here.innovation.size();
+    Eigen::MatrixXd of_variance(rows, n), of_innovation(rows, n);
+    const Eigen::ArrayXd deviation = (0.5 * here.log_variance).exp();
+    base::in_parallel(threads, static_cast<std::size_t>(n), [&](std::size_t i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const Filtered moved =
+          filtered(recordings, sizes.with(start, logs + kLogStep * Eigen::VectorXd::Unit(n, at)));
+      of_variance.col(at) = (moved.log_variance - here.log_variance) / kLogStep;
+      of_innovation.col(at) = (moved.innovation - here.innovation) / (kLogStep * deviation);
+    });
+    const Eigen::ArrayXd white = here.innovation / deviation;
+    const Eigen::VectorXd gradient = of_variance.transpose() * ((1 - white.square()) / 2).matrix() +
+                                     of_innovation.transpose() * white.matrix() +
+                                     precision.cwiseProduct(logs - usual);
+    Eigen::MatrixXd information =
+        of_variance.transpose() * of_variance / 2 + of_innovation.transpose() * of_innovation;
+    information.diagonal() += precision;
+    Eigen::VectorXd change = -information.ldlt().solve(gradient);
+    change *= std::min(1.0, kLongestLog / std::max(change.cwiseAbs().maxCoeff(), 1e-9));
+    double gain = -1;
+    for (int halving = 0; halving < 6 && gain < 0; ++halving, change /= 2) {
+      const Eigen::VectorXd next = logs + change;
+      Filtered there = filtered(recordings, sizes.with(start, next));
+      const double after = cost_of(there, next);
+      if (!(after < cost)) continue;
+      gain = cost - after;
+      cost = after;
+      logs = next;
+      here = std::move(there);
+    }
+    if (gain < kNoiseSettled) break;
+  }
+  return {sizes.with(start, logs), cost};
+}
+
+NoiseFit fit_noises_and_tau(std::span<const FollowedRecording> recordings, const FilterNoises& start,
+                            unsigned threads) {
+  NoiseFit best{start, std::numeric_limits<double>::infinity()};
+  for (const double tau_s : {1.0, 3.0, 10.0, 30.0}) {
+    FilterNoises from = best.cost < std::numeric_limits<double>::infinity() ? best.noises : start;
+    from.tau_s = tau_s;
+    const NoiseFit fit = fit_noises(recordings, from, true, threads);
+    if (fit.cost < best.cost - kWorthLonger || tau_s == 1) best = fit;
+  }
+  return best;
+}
+
+}  // namespace navcal::identify

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/diagnosis/micro_case.h"
+
+namespace navcal::diagnosis {
+namespace {
+
+TEST(DiagnoseLayout, ANominalVehicleHasNoGap) {
+  const auto of = micro();
+  const gap::Diagnosis answer = diagnosis_of(of, of.prior);
+  EXPECT_EQ(answer.verdict, gap::Verdict::no_gap) << answer.sentence;
+  EXPECT_TRUE(answer.effects.empty());
+}
+
+TEST(DiagnoseLayout, WithoutNominalRecordingsNothingIsNamed) {
+  const auto of = micro();
+  const config::Layout truth = changed(of.prior, "thrust_scale", "thruster.2", {-0.5});
+  const gap::Diagnosis answer = diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
+                                         {recording(of, truth, 1), {}, {}}, [](std::string_view, double) {});
+  EXPECT_EQ(answer.verdict, gap::Verdict::unknown) << answer.sentence;
+  EXPECT_NE(answer.sentence.find("--nominal"), std::string::npos) << answer.sentence;
+  EXPECT_FALSE(answer.candidates.empty());
+}
+
+}  // namespace
+}  // namespace navcal::diagnosis

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/filter/filtered_replay.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "identify/filter/noise_fit.h"
+#include "tests/identify/identification_case.h"
+
+namespace navcal::identify {
+namespace {
+
+/// The micro vehicle, exactly as its layout says, with perfect instruments but for their noise.
+struct FilterExample {
+  VehicleCase of = vehicle_case("micro");
+  RecordedMotion recording;
+  FilterNoises noises;
+
+  explicit FilterExample(double seconds) : recording(draw_recording(of, of.prior, seconds, 3, 0)) {
+    noises.white.setConstant(1e-3);
+    noises.coloured.setConstant(1e-2);
+  }
+  FilteredReplay filter() const { return {of.prior, uncertain_parameters(of.prior), recording, noises}; }
+};
+
+TEST(FilteredReplay, HeldGainsGiveThePassItself) {
+  const FilterExample example(8);
+  const FilteredReplay filter = example.filter();
+  const auto pass = filter.follow(filter.start());
+  ASSERT_TRUE(pass.has_value());
+  EXPECT_LT((filter.replayed(*pass, pass->values) - pass->white()).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_EQ(filter.stretches(), 1U);
+}
+
+TEST(FilteredReplay, InnovationsOfTheTrueVehicleAreAsPredictedUnderFittedNoises) {
+  const FilterExample example(20);
+  FilteredReplay filter = example.filter();
+  const auto pass = filter.follow(filter.start());
+  ASSERT_TRUE(pass.has_value());
+  const FollowedRecording followed{&filter, &*pass};
+  const NoiseFit fit = fit_noises(std::span(&followed, 1), example.noises);
+  filter.set_noises(fit.noises);
+  const auto again = filter.follow(filter.start());
+  ASSERT_TRUE(again.has_value());
+  EXPECT_LT(again->cost(), pass->cost());
+  EXPECT_NEAR(again->mean_square(), 1, 0.1);
+  EXPECT_NEAR(fit.noises.factor[static_cast<std::size_t>(Channel::rate_z)], 1, 0.15);
+  EXPECT_NEAR(fit.noises.factor[static_cast<std::size_t>(Channel::heading)], 1, 0.15);
+  // The vehicle was not disturbed.
+  EXPECT_LT(fit.noises.coloured[5], 0.05);
+}
+
+TEST(FilteredReplay, OtherNoisesNeedNoModel) {
+  const FilterExample example(8);
+  FilteredReplay filter = example.filter();
+  const auto pass = filter.follow(filter.start());
+  ASSERT_TRUE(pass.has_value());
+  FilterNoises louder = example.noises;
+  louder.white *= 3;
+  louder.coloured *= 3;
+  louder.tau_s = 10;
+  louder.factor.fill(1.5);
+  std::vector<FilterPass::Reading> again(pass->readings.size());
+  filter.filter_again(*pass, louder, again);
+  filter.set_noises(louder);
+  const auto followed = filter.follow(filter.start());
+  ASSERT_TRUE(followed.has_value());
+  double apart = 0, size = 0;
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    apart += std::pow(again[i].white - followed->readings[i].white, 2);
+    size += std::pow(followed->readings[i].white - pass->readings[i].white, 2);
+  }
+  // All but a small part of what the noises change.
+  EXPECT_LT(apart, 0.02 * size);
+}
+
+TEST(FilteredReplay, LinearisationPredictsTheInnovationsOfOtherValues) {
+  const FilterExample example(12);
+  const FilteredReplay filter = example.filter();
+  const auto parameters = static_cast<Eigen::Index>(filter.parameters().size());
+  const Eigen::Index bias = parameters + static_cast<Eigen::Index>(Nuisance::rate_bias_z);
+  const auto pass = filter.follow(filter.start());
+  ASSERT_TRUE(pass.has_value());
+  Eigen::VectorXd values = filter.start();
+  std::vector<FilterColumn> columns;
+  for (const Eigen::Index i : {Eigen::Index{0}, parameters - 2, bias}) columns.push_back({i});
+  const FilterLinearised linear = filter.linearise(*pass, columns);
+  Eigen::VectorXd change(3);
+  change << 0.005, 0.01, 0.001;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    values[columns[i].value] += change[static_cast<Eigen::Index>(i)];
+  const Eigen::VectorXd exact = filter.replayed(*pass, values) - linear.white;
+  EXPECT_LT((linear.jacobian * change - exact).norm(), 0.05 * exact.norm());
+  EXPECT_EQ(linear.count(), static_cast<Eigen::Index>(filter.readings().size()));
+  EXPECT_DOUBLE_EQ(linear.power, pass->power());
+}
+
+TEST(FilteredReplay, NuisancesOfAbsentInstrumentsDoNotMatter) {
+  const FilterExample example(4);
+  const FilteredReplay filter = example.filter();
+  EXPECT_TRUE(filter.matters(Nuisance::rate_bias_x));
+  EXPECT_TRUE(filter.matters(Nuisance::gauge_offset));
+  EXPECT_FALSE(filter.matters(Nuisance::doppler_scale));
+  EXPECT_FALSE(filter.matters(Nuisance::current_north));
+}
+
+TEST(FilteredReplay, ASilenceStartsItAnew) {
+  FilterExample example(24);
+  for (auto& channel : example.recording.channels)
+    std::erase_if(channel, [](const Reading& reading) { return reading.time_s > 6 && reading.time_s < 18; });
+  const FilteredReplay filter = example.filter();
+  EXPECT_EQ(filter.stretches(), 2U);
+  const auto pass = filter.follow(filter.start());
+  ASSERT_TRUE(pass.has_value());
+  EXPECT_LT(pass->white().cwiseAbs().maxCoeff(), 10);
+}
+
+TEST(FilteredReplay, TheFirstSecondBehindAStartIsNoEvidence) {
+  FilterExample example(24);
+  for (auto& channel : example.recording.channels)
+    std::erase_if(channel, [](const Reading& reading) { return reading.time_s > 6 && reading.time_s < 18; });
+  const FilteredReplay filter = example.filter();
+  const auto pass = filter.follow(filter.start());
+  ASSERT_TRUE(pass.has_value());
+  const double begin_s = filter.readings().front().time_s;
+  for (std::size_t i = 0; i < pass->readings.size(); ++i) {
+    const double time_s = filter.readings()[i].time_s;
+    const bool is_first = time_s < begin_s + 1 || (time_s >= 18 && time_s < 19);
+    if (std::abs(time_s - 19) < 0.1) continue;  // the first reading is not at 18 s exactly
+    EXPECT_EQ(pass->readings[i].is_settling, is_first) << time_s;
+    EXPECT_EQ(pass->readings[i].white == 0, is_first) << time_s;
+  }
+}
+
+TEST(FilteredReplay, AStretchThatDivergesIsLeftOutAndCounted) {
+  FilterExample example(24);
+  // For half a second the pitch stands still at a right angle.
+  for (Reading& reading : example.recording.channels[static_cast<std::size_t>(Channel::pitch)])
+    if (reading.time_s > 10 && reading.time_s < 10.5) reading = {reading.time_s, 1.57, 1e-5};
+  FilteredReplay filter = example.filter();
+  EXPECT_FALSE(filter.follow(filter.start()).has_value());
+  EXPECT_GE(filter.leave_out_diverging(filter.start()), 1U);
+  EXPECT_GE(filter.stretches(), 2U);
+  const auto pass = filter.follow(filter.start());
+  ASSERT_TRUE(pass.has_value());
+  EXPECT_LT(pass->mean_square(), 3);
+}
+
+}  // namespace
+}  // namespace navcal::identify
