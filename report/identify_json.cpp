@@ -63,6 +63,7 @@ std::string identify_json(const identify::Identification& found) {
                           {"disturbances", disturbances},
                           {"disturbance_tau_s", found.disturbance_tau_s},
                           {"left_out", found.left_out},
+                          {"interval_s", found.interval_s},
                           {"model_error", found.model_error},
                           {"seconds", found.seconds},
                           {"iterations", found.iterations},

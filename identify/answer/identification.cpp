@@ -30,7 +30,7 @@ double rms_of(const PredictionErrorProblem::Point& point) {
   double sum = 0, n = 0;
   for (const FilterPass& pass : point.passes) {
     sum += pass.power();
-    n += static_cast<double>(pass.readings.size());
+    n += pass.count();
   }
   return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::infinity();
 }

@@ -94,7 +94,7 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
   recorded.dip_rad = request.dip_rad;
   motion.points.front().tilt_rad = motion.points.front().body.euler_rad.head<2>();
   add_lagged_tilt(motion, request.tilt_lag_s);
-  std::vector<WindowReading> readings;
+  std::vector<ChannelReading> readings;
   for (const ChannelNoise& channel : request.channels) {
     const double end_s = ReplayedMotion::kStep_s * static_cast<double>(motion.points.size() - 1);
     for (double time_s = 0.5 / channel.rate_Hz; time_s < end_s; time_s += 1 / channel.rate_Hz)

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDifference = 1e-5;  ///< step of the finite differences, SI
 constexpr Eigen::Index kEuler = 3, kVelocity = 6, kTilt = 12;
 
-double difference_of(const WindowReading& reading, double a, double b) {
+double difference_of(const ChannelReading& reading, double a, double b) {
   return describe(reading.channel).is_angle ? base::wrapped(a - b) : a - b;
 }
 
@@ -40,9 +40,9 @@ FilterModel::Moved FilterModel::moved_over(double time_s, double step_s) const {
   return {vehicle_.hold(begin), vehicle_.hold(middle), vehicle_.hold(end)};
 }
 
-std::unique_ptr<const sim::LayoutVehicle::Held> FilterModel::held_for(std::span<const WindowReading> readings,
+std::unique_ptr<const sim::LayoutVehicle::Held> FilterModel::held_for(std::span<const ChannelReading> readings,
                                                                       double time_s) const {
-  for (const WindowReading& reading : readings) {
+  for (const ChannelReading& reading : readings) {
     if (reading.channel < Channel::force_x || reading.channel > Channel::force_z) continue;
     sim::ActuatorValues values = sim::ActuatorValues::neutral(vehicle_.layout());
     actuators_->at(time_s - get(calibration_, Nuisance::actuator_delay), values);
@@ -99,7 +99,7 @@ FilterMatrix transition_of(const StepDerivatives& derivatives, double tilt_lag_s
 }
 
 void FilterModel::predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
-                          std::span<const WindowReading> readings, double* out) const {
+                          std::span<const ChannelReading> readings, double* out) const {
   MotionPoint point = point_of(state.head<kStates>());
   if (held != nullptr)
     point.acceleration =
@@ -108,14 +108,14 @@ void FilterModel::predict(const FilterState& state, const sim::LayoutVehicle::He
   instruments_.at(point, Eigen::Vector3d::Zero(), readings, calibration_, out);
 }
 
-void FilterModel::innovations(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+void FilterModel::innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
                               double* out) const {
   const auto held = held_for(readings, time_s);
   predict(state, held.get(), readings, out);
   for (std::size_t i = 0; i < readings.size(); ++i) out[i] = difference_of(readings[i], readings[i].value, out[i]);
 }
 
-void FilterModel::sensitivities(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+void FilterModel::sensitivities(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
                                 std::span<FilterState> out) const {
   const auto held = held_for(readings, time_s);
   std::fill(out.begin(), out.end(), FilterState::Zero());

@@ -42,17 +42,17 @@ class FilterModel {
   [[nodiscard]] StepDerivatives derivatives(const FilterState& state, const FilterState& end, const Moved& moved,
                                             double step_s, double tau_s) const;
   /// Readings less predictions at one instant, angles wrapped, to `out`.
-  void innovations(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+  void innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
                    double* out) const;
   /// Derivatives of the predictions by the state, one column for each reading.
-  void sensitivities(const FilterState& state, double time_s, std::span<const WindowReading> readings,
+  void sensitivities(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
                      std::span<FilterState> out) const;
 
  private:
   void predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
-               std::span<const WindowReading> readings, double* out) const;
+               std::span<const ChannelReading> readings, double* out) const;
   /// Actuators where an accelerometer needs them, else none.
-  [[nodiscard]] std::unique_ptr<const sim::LayoutVehicle::Held> held_for(std::span<const WindowReading> readings,
+  [[nodiscard]] std::unique_ptr<const sim::LayoutVehicle::Held> held_for(std::span<const ChannelReading> readings,
                                                                          double time_s) const;
 
   const sim::LayoutVehicle& vehicle_;

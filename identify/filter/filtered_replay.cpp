@@ -81,11 +81,12 @@ double FilterPass::log_det() const {
   return sum;
 }
 
-double FilterPass::mean_square() const {
-  const auto count =
-      std::count_if(readings.begin(), readings.end(), [](const auto& one) { return !one.is_settling; });
-  return power() / std::max(static_cast<double>(count), 1.0);
+double FilterPass::count() const {
+  return static_cast<double>(
+      std::count_if(readings.begin(), readings.end(), [](const auto& one) { return !one.is_settling; }));
 }
+
+double FilterPass::mean_square() const { return power() / std::max(count(), 1.0); }
 
 FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> parameters,
                                const RecordedMotion& recorded, const FilterNoises& noises, unsigned threads)
@@ -111,7 +112,7 @@ FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> par
     throw std::invalid_argument(fmt::format("{}: {:.1f} s with readings; at least {:.0f} s are needed",
                                             recorded.name, recorded.duration_s, 2 * kRunIn_s));
   // At a point where everything is at work.
-  std::vector<WindowReading> one_each;
+  std::vector<ChannelReading> one_each;
   for (std::size_t c = 0; c < kChannels; ++c) {
     if (!recorded.channels[c].empty()) one_each.push_back({static_cast<Channel>(c), 0, 0, 1});
   }
@@ -208,7 +209,7 @@ FilterMatrix FilteredReplay::first_covariance(const FilterNoises& noises) const 
   return variance.asDiagonal();
 }
 
-double FilteredReplay::variance_of(const WindowReading& reading, const FilterNoises& noises) const {
+double FilteredReplay::variance_of(const ChannelReading& reading, const FilterNoises& noises) const {
   const double std = noises.factor[static_cast<std::size_t>(reading.channel)] * reading.std;
   return std * std;
 }

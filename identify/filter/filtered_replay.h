@@ -39,6 +39,7 @@ struct FilterPass {
   [[nodiscard]] Eigen::VectorXd white() const;
   [[nodiscard]] double power() const;    ///< sum of squares of the white innovations
   [[nodiscard]] double log_det() const;  ///< sum of ln S
+  [[nodiscard]] double count() const;    ///< of readings that are evidence
   /// 1 where vehicle, noises and recording agree.
   [[nodiscard]] double mean_square() const;
   /// Twice the negative log likelihood but for a constant.
@@ -99,7 +100,7 @@ class FilteredReplay {
   void set_noises(const FilterNoises& noises) { noises_ = noises; }
   [[nodiscard]] const FilterNoises& noises() const { return noises_; }
   /// In the order of time, without those left out.
-  [[nodiscard]] const std::vector<WindowReading>& readings() const { return readings_; }
+  [[nodiscard]] const std::vector<ChannelReading>& readings() const { return readings_; }
   [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
   [[nodiscard]] const config::Layout& layout() const { return layout_; }
   [[nodiscard]] const RecordedMotion& recording() const { return recorded_; }
@@ -126,11 +127,11 @@ class FilteredReplay {
   [[nodiscard]] Driven driven_by(const Eigen::VectorXd& values) const;
   [[nodiscard]] FilterModel model_of(const Driven& driven, const Eigen::VectorXd& values) const;
   [[nodiscard]] FilterState measured(double time_s) const;
-  [[nodiscard]] std::span<const WindowReading> readings_of(const Step& step) const {
+  [[nodiscard]] std::span<const ChannelReading> readings_of(const Step& step) const {
     return {readings_.data() + step.first, step.count};
   }
   [[nodiscard]] FilterMatrix first_covariance(const FilterNoises& noises) const;
-  [[nodiscard]] double variance_of(const WindowReading& reading, const FilterNoises& noises) const;
+  [[nodiscard]] double variance_of(const ChannelReading& reading, const FilterNoises& noises) const;
   void make_steps();
   /// Places where the filter left all bounds, the filter starting anew behind each; at most `most`.
   [[nodiscard]] std::vector<double> run(const Eigen::VectorXd& values, FilterPass& pass, std::size_t most) const;
@@ -142,7 +143,7 @@ class FilteredReplay {
   FilterNoises noises_;
   unsigned threads_;
   ActuatorInputs inputs_;
-  std::vector<WindowReading> readings_;
+  std::vector<ChannelReading> readings_;
   std::vector<Step> steps_;
   std::vector<double> broken_s_;  ///< ends of what was left out
   std::array<bool, static_cast<std::size_t>(kNuisances)> matters_{};

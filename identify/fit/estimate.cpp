@@ -26,7 +26,7 @@ FilterNoises equation_error() {
   return noises;
 }
 
-/// Covariance of the score of one recording: its own windows, and neighbours with Bartlett's weights.
+/// Covariance of the score of one recording: its own blocks, and neighbours with Bartlett's weights.
 Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& scores) {
   const Eigen::Index n = scores.cols();
   Eigen::MatrixXd sum = scores * scores.transpose();

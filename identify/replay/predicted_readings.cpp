@@ -28,7 +28,7 @@ double component(Channel channel, Channel first, const Eigen::Vector3d& vector) 
 }  // namespace
 
 void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carried_m,
-                           std::span<const WindowReading> readings, const Calibration& calibration,
+                           std::span<const ChannelReading> readings, const Calibration& calibration,
                            double* out) const {
   const auto value = [&](Nuisance nuisance) { return get(calibration, nuisance); };
   const auto vector = [&](Nuisance first) {
@@ -108,11 +108,11 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
     }
     return 0;
   };
-  for (const WindowReading& reading : readings) *out++ = predict(reading.channel);
+  for (const ChannelReading& reading : readings) *out++ = predict(reading.channel);
 }
 
 Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
-                                              const std::vector<WindowReading>& readings,
+                                              const std::vector<ChannelReading>& readings,
                                               const Calibration& calibration) const {
   const Eigen::Vector3d current(get(calibration, Nuisance::current_north),
                                 get(calibration, Nuisance::current_east), 0);

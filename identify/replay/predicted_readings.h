@@ -11,8 +11,8 @@
 
 namespace navcal::identify {
 
-/// One reading within a window.
-struct WindowReading {
+/// One reading of a channel.
+struct ChannelReading {
   Channel channel;
   double time_s, value, std;
 };
@@ -32,11 +32,11 @@ class PredictedReadings {
 
   /// One number for each reading; the readings lie within the motion.
   [[nodiscard]] Eigen::VectorXd operator()(const ReplayedMotion& motion,
-                                           const std::vector<WindowReading>& readings,
+                                           const std::vector<ChannelReading>& readings,
                                            const Calibration& calibration) const;
   /// The same at one instant, with the distance that the water has carried the vehicle (c t above). One number for
   /// each reading goes to `out`.
-  void at(const MotionPoint& point, const Eigen::Vector3d& carried_m, std::span<const WindowReading> readings,
+  void at(const MotionPoint& point, const Eigen::Vector3d& carried_m, std::span<const ChannelReading> readings,
           const Calibration& calibration, double* out) const;
 
  private:
