@@ -34,6 +34,8 @@ struct Cause {
   std::vector<CauseParameter> parameters;
   bool is_instrument = false;
 
+  /// Of "thruster.2", and not of "sway" or of the vehicle.
+  [[nodiscard]] bool is_of_actuator() const { return of.find('.') != std::string::npos; }
   /// "thrust_scale of thruster.2"
   [[nodiscard]] std::string words() const { return of.empty() ? name : name + " of " + of; }
   [[nodiscard]] std::vector<Eigen::Index> columns() const;

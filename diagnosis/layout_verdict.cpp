@@ -103,12 +103,14 @@ std::optional<std::string> objection(const LayoutEvidence& evidence, const Membe
         cause.words(), member.lead_nats, chance_nats);
   }
   double presence = 0;
+  // What an actuator can lose in full, as a dead one does, it can lose by any part.
   for (std::size_t i = 0; i < cause.parameters.size(); ++i) {
     const CauseParameter& parameter = cause.parameters[i];
     const gap::EffectParameterEstimate& estimate = finding.parameters[i];
     presence = std::max(presence, std::abs(estimate.value) / estimate.std_error);
     const double strength = std::abs(estimate.value) / parameter.typical;
-    if (strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical)
+    const bool is_loss = cause.is_of_actuator() && parameter.name == "scale" && estimate.value < 0;
+    if (!is_loss && strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical)
       return fmt::format("{} would have {:.0f} times its typical strength", cause.words(), strength);
   }
   if (presence < kLeastPresence_sigma)

@@ -8,9 +8,9 @@
 #include "config/described/description_file.h"
 #include "instruments/start_up.h"
 #include "protocols/checked_line.h"
-#include "tests/protocols/described_encode.h"
 #include "protocols/imu_card.h"
 #include "tests/analysis/described_port.h"
+#include "tests/protocols/described_encode.h"
 
 namespace navcal::analysis::described {
 namespace {

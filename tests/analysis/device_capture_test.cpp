@@ -7,8 +7,8 @@
 #include "analysis/failure.h"
 #include "config/described/description_file.h"
 #include "protocols/checked_line.h"
-#include "tests/protocols/described_encode.h"
 #include "tests/analysis/described_port.h"
+#include "tests/protocols/described_encode.h"
 
 namespace navcal::analysis::described {
 namespace {

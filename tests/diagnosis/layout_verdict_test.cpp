@@ -146,6 +146,19 @@ TEST(LayoutVerdict, AnImplausibleStrengthIsNotNamed) {
   expect_unknown(searched, "times its typical strength");
 }
 
+TEST(LayoutVerdict, AnActuatorMayLoseAnyPart) {
+  Searched searched;
+  CauseParameter& parameter = searched.library.causes[0].parameters[0];
+  parameter = {.name = "scale", .typical = 0.08, .low = -1, .high = 1};
+  searched.found.changes.score *= -0.5;
+  EXPECT_EQ(searched.verdict().verdict, gap::Verdict::explained);
+  searched.found.changes.score *= -1;
+  expect_unknown(searched, "times its typical strength");
+  searched.found.changes.score *= -1;
+  searched.library.causes[0].of = "sway";
+  expect_unknown(searched, "times its typical strength");
+}
+
 TEST(Floor, HasRoomForTheScatterAndForTolerancesThatNominalRecordingsDoNotShow) {
   EXPECT_EQ(floor_of({}).mean, 1);
   const std::array one{4.0};

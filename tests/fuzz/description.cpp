@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "config/described/description_file.h"
-#include "tests/protocols/described_encode.h"
 #include "protocols/described/reading.h"
 #include "protocols/described/scanner.h"
 #include "tests/fuzz/target.h"
+#include "tests/protocols/described_encode.h"
 
 namespace navcal::fuzz::description_target {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/protocols/described_encode.h"
 #include "protocols/described/scanner.h"
+#include "tests/protocols/described_encode.h"
 #include "tests/protocols/stream.h"
 
 // Described devices of each form, made by hand, and random frames of them.

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "calib/gps/gps_coefficients.h"
-#include "tests/calib/gps/gps_course_fit.h"
 #include "calib/gps/gps_track.h"
 #include "calib/gps/gps_water_speed.h"
+#include "tests/calib/gps/gps_course_fit.h"
 #include "tests/calib/gps_paths.h"
 
 namespace navcal::calib {
