@@ -50,10 +50,14 @@ TEST_F(SimulateLayout, RecordsTheOutputsOfAnRov) {
 
 TEST_F(SimulateLayout, TheCaptureIsDiagnosedAsItIs) {
   const std::string layout = std::string(kVehicles) + "micro-auv.toml";
-  ASSERT_EQ(simulate(layout, "--mission survey --seconds 6"), 0) << said("err");
-  ASSERT_EQ(run_navcal("gap --bank 3 --vehicle '" + layout + "' run.cap"), 0) << said("err");
+  ASSERT_EQ(simulate(layout, "--mission survey --seconds 12 --seed 2"), 0) << said("err");
+  std::filesystem::rename(folder_ / "run.cap", folder_ / "nominal.cap");
+  ASSERT_EQ(simulate(layout, "--mission survey --seconds 12 --seed 3"), 0) << said("err");
+  ASSERT_EQ(run_navcal("gap --nominal nominal.cap --vehicle '" + layout + "' run.cap"), 0) << said("err");
   EXPECT_EQ(said("out").find("cannot be diagnosed"), std::string::npos) << said("out");
   EXPECT_NE(said("out").find("no gap"), std::string::npos) << said("out");
+  EXPECT_EQ(run_navcal("gap --bank 3 --vehicle '" + layout + "' run.cap"), 2);
+  EXPECT_NE(said("err").find("--nominal"), std::string::npos) << said("err");
 }
 
 TEST_F(SimulateLayout, SameSeedSameBytesAndAnEffectChangesThem) {
