@@ -154,7 +154,7 @@ NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
         passes.push_back(std::move(*pass));
       }
       for (std::size_t i = 0; i < passes.size(); ++i) of_noise.push_back({&followed[i]->filter(), &passes[i]});
-      bank.noises = identify::fit_noises(of_noise, bank.noises, true, threads).noises;
+      bank.noises = identify::fit_noises(of_noise, bank.noises, threads).noises;
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
       followed[i]->filter().set_noises(bank.noises);

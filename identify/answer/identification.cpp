@@ -10,6 +10,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "identify/answer/prediction.h"
+
 namespace navcal::identify {
 namespace {
 
@@ -150,6 +152,19 @@ void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate
     answer.warnings.push_back(fmt::format("the fit has not settled within {} steps", answer.iterations));
 }
 
+/// Where a regression of a few lines, or none, predicts the held-out recordings better than the fitted vehicle.
+void warn_of_predictions(const IdentifyRequest& request, Identification& answer) {
+  try {
+    const Prediction of = predict({answer.layout, request.held_out, request.recordings}, [](double) {});
+    for (const auto& [is_worse, what] : {std::pair{of.worse_than_linear, "a linear regression"},
+                                         std::pair{of.worse_than_hold, "holding the velocity"}})
+      if (is_worse)
+        answer.warnings.push_back(fmt::format("held out, the fitted vehicle predicts worse than {}", what));
+  } catch (const std::invalid_argument&) {
+    // The recordings do not measure what predictions begin with.
+  }
+}
+
 /// A problem with the recordings that it holds.
 struct Thinned {
   std::vector<RecordedMotion> recordings;
@@ -224,6 +239,7 @@ Identification identify(const IdentifyRequest& request, const FitProgress& progr
       answer.warnings.push_back(
           fmt::format("the fit does not improve the held-out recordings: residuals {:.3f} before, {:.3f} after",
                       rms.before, rms.after));
+    warn_of_predictions(request, answer);
   }
   if (request.advise && !answer.directions.empty())
     answer.manoeuvres = advised_manoeuvres(problem, found, request.settings, progress);

@@ -19,7 +19,7 @@ constexpr double kWorthLonger = 4;                                     ///< twic
 /// The logarithms of the sizes that are fitted.
 class Sizes {
  public:
-  Sizes(std::span<const FollowedRecording> recordings, bool is_coloured) : is_coloured_(is_coloured) {
+  explicit Sizes(std::span<const FollowedRecording> recordings) {
     for (std::size_t c = 0; c < kChannels; ++c) {
       const auto has = [&](const FollowedRecording& one) { return !one.filter->recording().channels[c].empty(); };
       if (std::any_of(recordings.begin(), recordings.end(), has)) channels_.push_back(c);
@@ -37,9 +37,9 @@ class Sizes {
     return noises;
   }
   [[nodiscard]] Eigen::VectorXd prior_stds() const {
-    const auto disturbances = static_cast<Eigen::Index>(is_coloured_ ? 12 : 6);
-    Eigen::VectorXd stds = Eigen::VectorXd::Constant(disturbances + std::ssize(channels_), kFactorStd);
-    stds.head(disturbances).setConstant(kDisturbanceStd);
+    constexpr Eigen::Index kDisturbances = 12;
+    Eigen::VectorXd stds = Eigen::VectorXd::Constant(kDisturbances + std::ssize(channels_), kFactorStd);
+    stds.head<kDisturbances>().setConstant(kDisturbanceStd);
     return stds;
   }
 
@@ -47,13 +47,11 @@ class Sizes {
   [[nodiscard]] std::vector<double*> places_in(FilterNoises& noises) const {
     std::vector<double*> places;
     for (double& one : noises.white) places.push_back(&one);
-    if (is_coloured_)
-      for (double& one : noises.coloured) places.push_back(&one);
+    for (double& one : noises.coloured) places.push_back(&one);
     for (const std::size_t channel : channels_) places.push_back(&noises.factor[channel]);
     return places;
   }
 
-  bool is_coloured_;
   std::vector<std::size_t> channels_;
 };
 
@@ -83,9 +81,8 @@ Filtered filtered(std::span<const FollowedRecording> recordings, const FilterNoi
 
 }  // namespace
 
-NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterNoises& start, bool is_coloured,
-                    unsigned threads) {
-  const Sizes sizes(recordings, is_coloured);
+NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterNoises& start, unsigned threads) {
+  const Sizes sizes(recordings);
   const Eigen::VectorXd usual = sizes.of(FilterNoises{});
   const Eigen::VectorXd precision = sizes.prior_stds().cwiseAbs2().cwiseInverse();
   const auto cost_of = [&](const Filtered& of, const Eigen::VectorXd& logs) {
@@ -136,7 +133,7 @@ NoiseFit fit_noises_and_tau(std::span<const FollowedRecording> recordings, const
   for (const double tau_s : {1.0, 3.0, 10.0, 30.0}) {
     FilterNoises from = best.cost < std::numeric_limits<double>::infinity() ? best.noises : start;
     from.tau_s = tau_s;
-    const NoiseFit fit = fit_noises(recordings, from, true, threads);
+    const NoiseFit fit = fit_noises(recordings, from, threads);
     if (fit.cost < best.cost - kWorthLonger || tau_s == 1) best = fit;
   }
   return best;

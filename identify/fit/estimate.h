@@ -16,7 +16,6 @@ using FitProgress = std::function<void(std::string_view, double)>;
 
 struct EstimateSettings {
   unsigned threads = 2;
-  bool is_coloured = true;  ///< estimate a coloured disturbance; else it is white only
 };
 
 /// Prior of a recording's nuisances about zero: nuisance_stds(), but commands may reach the actuators late.

@@ -13,7 +13,6 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kStepSettled = 0.05;  ///< of the cost: far below a standard error
 constexpr double kBlock_s = 5;
-constexpr double kNoColour = 1e-6;  ///< m/s2 and rad/s2
 /// Commands of an autopilot may be followed a second later: by the way to the actuators, and by their lags.
 constexpr double kDelayOfCommands_s = 0.7, kEarliest_s = -0.05;
 constexpr Eigen::Index kDelayAt = static_cast<Eigen::Index>(Nuisance::actuator_delay);
@@ -202,16 +201,13 @@ std::size_t PredictionErrorProblem::leave_out_diverging(const Eigen::VectorXd& u
 void PredictionErrorProblem::fit_noises(const Point& point, bool with_tau) {
   std::vector<FollowedRecording> followed;
   for (std::size_t r = 0; r < filters_.size(); ++r) followed.push_back({&filters_[r], &point.passes[r]});
-  const bool tries_tau = with_tau && settings_.is_coloured;
-  set_noises((tries_tau ? fit_noises_and_tau(followed, noises(), settings_.threads)
-                        : identify::fit_noises(followed, noises(), settings_.is_coloured, settings_.threads))
+  set_noises((with_tau ? fit_noises_and_tau(followed, noises(), settings_.threads)
+                       : identify::fit_noises(followed, noises(), settings_.threads))
                  .noises);
 }
 
 void PredictionErrorProblem::set_noises(const FilterNoises& noises) {
-  FilterNoises used = noises;
-  if (!settings_.is_coloured) used.coloured.setConstant(kNoColour);
-  for (FilteredReplay& filter : filters_) filter.set_noises(used);
+  for (FilteredReplay& filter : filters_) filter.set_noises(noises);
 }
 
 std::vector<std::string> PredictionErrorProblem::oddities() const {

@@ -29,36 +29,24 @@ TEST(IdentifyEstimate, ErrorsAreAsStated) {
   EXPECT_LT(std::sqrt(sum / static_cast<double>(drawn.truth.size())), 1.6);
 }
 
-/// Ratios of force over mass to the truth, in the mean over recordings of the ferry under control.
-Eigen::Vector3d steered_forces(bool is_coloured, std::vector<double>* surge_errors = nullptr) {
+/// Without the coloured disturbance they come out at 0.3 to 0.4 of the truth: the controller's commands cancel it.
+TEST(IdentifyEstimate, ForcesOfASteeredVehicleDoNotCollapse) {
   constexpr std::uint64_t kSeeds = 2;
   const VehicleCase of = vehicle_case("ferry");
   config::Layout truth = of.prior;
   for (auto& thruster : truth.thrusters) thruster.force_scale = 1;
   const auto parameters = uncertain_parameters(of.prior);
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d forces = Eigen::Vector3d::Zero();
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const std::vector<RecordedMotion> recordings{draw_steered(truth, 120, seed)};
-    PredictionErrorProblem problem(of.prior, parameters, recordings, {.is_coloured = is_coloured});
+    PredictionErrorProblem problem(of.prior, parameters, recordings, {});
     const Estimate found = estimate(problem, kSilent);
     const Eigen::VectorXd values = found.unknowns.head(std::ssize(parameters));
-    mean += force_over_mass(with_values(of.prior, parameters, values), truth) / kSeeds;
-    if (surge_errors != nullptr) surge_errors->push_back((values[2] - 1) / found.stds[2]);
+    forces += force_over_mass(with_values(of.prior, parameters, values), truth) / kSeeds;
+    EXPECT_LT(std::abs(values[2] - 1) / found.stds[2], 3);
   }
-  return mean;
-}
-
-TEST(IdentifyEstimate, ForcesOfASteeredVehicleDoNotCollapse) {
-  std::vector<double> errors;
-  const Eigen::Vector3d forces = steered_forces(true, &errors);
   EXPECT_GT(forces.minCoeff(), 0.75) << forces.transpose();
   EXPECT_LT(forces.maxCoeff(), 1.15) << forces.transpose();
-  for (const double error : errors) EXPECT_LT(std::abs(error), 3);
-}
-
-TEST(IdentifyEstimate, WithoutColourTheyDo) {
-  const Eigen::Vector3d forces = steered_forces(false);
-  EXPECT_LT(forces.minCoeff(), 0.75) << forces.transpose();
 }
 
 TEST(Identify, ThinnedReadingsAreOneInAnInterval) {
