@@ -196,11 +196,11 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const std::vector<double> chances = all_chances(evidence);
   for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, chances[cause]);
   if (louder.empty() && !is_loud && gain_nats < kGap_nats + chance_nats) {
-    answer.verdict = gap::Verdict::no_gap;
+    answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();
     answer.sentence = has_floor ? "Nothing exceeds what nominal recordings show."
-                                : "No effect of the library stands out; without nominal recordings (--nominal) "
-                                  "there is no floor.";
+                                : "No effect of the library stands out; without nominal recordings (--nominal) a "
+                                  "gap cannot be ruled out.";
     return;
   }
   if (best.causes.empty()) return say_unknown("no effect of the library explains it", louder, answer);

@@ -108,6 +108,8 @@ TEST(LayoutVerdict, WithoutNominalRecordingsNothingIsNamed) {
                  "without nominal recordings (--nominal): the most probable candidate is first of "
                  "thruster.1, k 1 +- 0.01");
   EXPECT_EQ(searched.verdict().candidates.size(), 2U);
+  searched.found.sets = {{{}, 0, 0.9}, {{0}, -2.2, 0.1}};
+  expect_unknown(searched, "a gap cannot be ruled out");
 }
 
 TEST(LayoutVerdict, ACauseThatLeavesAChannelLouderIsNotNamed) {
