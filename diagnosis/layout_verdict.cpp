@@ -198,9 +198,10 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   if (louder.empty() && !is_loud && gain_nats < kGap_nats + chance_nats) {
     answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();
-    answer.sentence = has_floor ? "Nothing exceeds what nominal recordings show."
-                                : "No effect of the library stands out; without nominal recordings (--nominal) a "
-                                  "gap cannot be ruled out.";
+    const bool is_faint = gain_nats >= kFaint_nats;
+    const std::string but = is_faint ? " but for a faint lead of " + library.causes[best.causes[0]].words() : "";
+    answer.sentence = "No effect stands out; without nominal recordings (--nominal) a gap cannot be ruled out.";
+    if (has_floor) answer.sentence = fmt::format("Nothing exceeds what nominal recordings show{}.", but);
     return;
   }
   if (best.causes.empty()) return say_unknown("no effect of the library explains it", louder, answer);

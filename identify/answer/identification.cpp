@@ -152,7 +152,7 @@ void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate
     answer.warnings.push_back(fmt::format("the fit has not settled within {} steps", answer.iterations));
 }
 
-/// Where a regression of a few lines, or none, predicts the held-out recordings better than the fitted vehicle.
+/// Where a regression predicts the held-out recordings better.
 void warn_of_predictions(const IdentifyRequest& request, Identification& answer) {
   try {
     const Prediction of = predict({answer.layout, request.held_out, request.recordings}, [](double) {});

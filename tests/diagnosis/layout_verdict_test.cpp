@@ -64,6 +64,11 @@ TEST(LayoutVerdict, WithoutACauseAndALouderChannelThereIsNoGap) {
   Searched searched;
   searched.found.sets = {{{}, 0, 0.99}, {{0}, -6, 0.01}};
   EXPECT_EQ(searched.verdict().verdict, gap::Verdict::no_gap);
+  EXPECT_EQ(searched.verdict().sentence, "Nothing exceeds what nominal recordings show.");
+  searched.found.sets = {{{0}, 7, 0.99}, {{}, 0, 0.01}};
+  EXPECT_EQ(searched.verdict().verdict, gap::Verdict::no_gap);
+  EXPECT_NE(searched.verdict().sentence.find("a faint lead of first of thruster.1"), std::string::npos);
+  searched.found.sets = {{{}, 0, 0.99}, {{0}, -6, 0.01}};
   searched.after.of_channel[0] = 3;
   expect_unknown(searched, "no effect of the library explains it");
 }
