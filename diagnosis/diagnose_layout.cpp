@@ -53,12 +53,10 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
       explained.push_back(held_out(filter_of(other), bank.prior, library, found));
     }
   }
-  std::vector<double> powers;
-  for (const RecordingPower& one : bank.powers) powers.push_back(one.mean_square);
   answer.gap.held_out = !explained.empty();
   answer.gap.pooled =
       closure_of(explained.empty() ? std::span(&itself, 1) : std::span(explained.data(), explained.size()),
-                 floor_of(powers).mean, request.seed);
+                 bank.floor().mean, request.seed);
   write_verdict({library, bank, found, itself.after, explained}, answer);
 }
 

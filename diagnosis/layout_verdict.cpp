@@ -31,12 +31,6 @@ struct Member {
   double lead_nats = 0;                       ///< over all sets without
 };
 
-std::vector<double> all_chances(const LayoutEvidence& evidence) {
-  std::vector<double> chances = evidence.bank.chance_nats;
-  chances.resize(evidence.library.causes.size());
-  return chances;
-}
-
 Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
   const auto& sets = evidence.found.sets;
   const CauseSet& best = sets.front().causes;
@@ -96,7 +90,7 @@ std::string names_of(const std::vector<gap::EffectFinding>& effects) {
 std::optional<std::string> objection(const LayoutEvidence& evidence, const Member& member, std::size_t place,
                                      const gap::EffectFinding& finding) {
   const Cause& cause = evidence.library.causes[member.cause];
-  const double chance_nats = all_chances(evidence)[member.cause];
+  const double chance_nats = evidence.bank.chance_nats[member.cause];
   if (member.lead_nats < kNamed_nats + chance_nats) {
     return fmt::format(
         "the most probable cause, {}, leads by {:.0f} nats only, and by {:.0f} in nominal recordings",
@@ -182,10 +176,8 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const auto& [library, bank, found, after, held_out] = evidence;
   const ScoredSet& best = found.sets.front();
   add_candidates(evidence, answer);
-  std::vector<double> powers;
-  for (const RecordingPower& one : bank.powers) powers.push_back(one.mean_square);
-  const bool has_floor = !powers.empty();
-  const Floor floor = floor_of(powers);
+  const bool has_floor = !bank.powers.empty();
+  const Floor floor = bank.floor();
   const auto louder = has_floor ? louder_channels(after, bank.powers) : std::vector<gap::WhereEntry>{};
   const bool is_loud = has_floor && after.mean_square > floor.limit(kNominalPowerFactor);
   double gain_nats = best.log_odds;
@@ -193,8 +185,7 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     if (one.causes.empty()) gain_nats -= one.log_odds;
   }
   double chance_nats = 0;
-  const std::vector<double> chances = all_chances(evidence);
-  for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, chances[cause]);
+  for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, bank.chance_nats[cause]);
   if (louder.empty() && !is_loud && gain_nats < kGap_nats + chance_nats) {
     answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();

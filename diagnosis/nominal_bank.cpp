@@ -132,10 +132,17 @@ JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatte
   return prior;
 }
 
+Floor NominalBank::floor() const {
+  std::vector<double> of_recordings;
+  for (const RecordingPower& one : powers) of_recordings.push_back(one.mean_square);
+  return floor_of(of_recordings);
+}
+
 NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
                     std::span<const RecordedMotion> recordings, const RecordedMotion& alone, unsigned threads,
                     const Progress& progress) {
   NominalBank bank;
+  bank.chance_nats.assign(library.causes.size(), 0);
   const std::span<const RecordedMotion> all = recordings.empty() ? std::span(&alone, 1) : recordings;
   std::vector<std::unique_ptr<FittedRecording>> followed;
   for (const RecordedMotion& recording : all)
@@ -171,7 +178,6 @@ NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
     bank.prior = prior_from(linear, scatter);
     for (std::size_t i = 0; i < all.size(); ++i) at[i] = bank.prior.posterior_mean(linear[i]);
   }
-  bank.chance_nats.assign(library.causes.size(), 0);
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<Likelihood> others = linear;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));

@@ -42,6 +42,8 @@ struct NominalBank {
   /// For each cause, the largest log evidence that a nominal recording has for it when the others are its prior,
   /// nats.
   std::vector<double> chance_nats;
+
+  [[nodiscard]] Floor floor() const;  ///< of the noise power of all channels together
 };
 
 /// Throws std::invalid_argument in words. `recordings` may be empty: then the noises are those of `alone`, the

@@ -11,9 +11,8 @@
 
 namespace navcal::identify {
 
-/// State of the filter: position, Euler angles, velocity and rates of the body, roll and pitch of a tilt sensor
-/// that lags (StateVector, but its position is in the world and contains what the water carries), then the six
-/// accelerations of the disturbance d, in body axes. SI.
+/// State of the filter: StateVector, then the six accelerations of the disturbance d in body axes. SI. Here the
+/// position is in the world: it contains what the water carries.
 inline constexpr Eigen::Index kFilterStates = kStates + 6;
 using FilterState = Eigen::Matrix<double, kFilterStates, 1>;
 using FilterMatrix = Eigen::Matrix<double, kFilterStates, kFilterStates>;

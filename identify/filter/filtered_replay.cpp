@@ -44,6 +44,14 @@ FilterState growth_of(const FilterNoises& noises, double step_s) {
   return all;
 }
 
+/// Covariance a step later.
+FilterMatrix grown(const FilterMatrix& covariance, const FilterMatrix& transition, const FilterState& growth) {
+  const FilterMatrix moved = transition * covariance * transition.transpose();
+  FilterMatrix all = (moved + moved.transpose()) / 2;
+  all.diagonal() += growth;
+  return all;
+}
+
 /// Sequential updates of one step. `correction` is that of the state by the readings so far.
 void update(std::span<FilterPass::Reading> readings, std::span<const double> variances, bool is_settling,
             FilterMatrix& covariance, FilterState& correction) {
@@ -241,9 +249,7 @@ std::vector<double> FilteredReplay::run(const Eigen::VectorXd& values, FilterPas
       pass.steps[k].derivatives = model.derivatives(state, end, moved, step.length_s, noises_.tau_s);
       const FilterMatrix transition =
           transition_of(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises_.tau_s);
-      const FilterMatrix grown = transition * covariance * transition.transpose();
-      covariance = (grown + grown.transpose()) / 2;
-      covariance.diagonal() += growth_of(noises_, step.length_s);
+      covariance = grown(covariance, transition, growth_of(noises_, step.length_s));
       state = end;
     }
     const auto readings = readings_of(step);
@@ -377,9 +383,7 @@ void FilteredReplay::filter_again(const FilterPass& pass, const FilterNoises& no
       apart = transition * apart;
       apart.tail<6>() += (std::exp(-step.length_s / noises.tau_s) - std::exp(-step.length_s / pass.tau_s)) *
                          pass.steps[k].begin.tail<6>();
-      const FilterMatrix grown = transition * covariance * transition.transpose();
-      covariance = (grown + grown.transpose()) / 2;
-      covariance.diagonal() += growth_of(noises, step.length_s);
+      covariance = grown(covariance, transition, growth_of(noises, step.length_s));
     }
     if (step.count == 0) continue;
     const auto here = out.subspan(step.first, step.count);

@@ -109,6 +109,7 @@ TEST(LayoutVerdict, ACauseThatNominalRecordingsHaveByChanceIsNotNamed) {
 TEST(LayoutVerdict, WithoutNominalRecordingsNothingIsNamed) {
   Searched searched;
   searched.bank = {};
+  searched.bank.chance_nats = {0, 0};
   expect_unknown(searched,
                  "without nominal recordings (--nominal): the most probable candidate is first of "
                  "thruster.1, k 1 +- 0.01");

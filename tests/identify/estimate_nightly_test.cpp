@@ -11,7 +11,7 @@ namespace {
 
 const FitProgress kSilent = [](auto, auto) {};
 
-/// What a recorder does that keeps one reading of ten and fills in the rest.
+/// Keeps one reading of ten and fills in the rest by lines, as some recorders do.
 void interpolate(RecordedMotion& motion) {
   constexpr std::size_t kOf = 10;
   for (auto& channel : motion.channels) {
