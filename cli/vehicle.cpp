@@ -18,6 +18,7 @@
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "identify/answer/prediction.h"
+#include "identify/conventions/conventions.h"
 #include "report/vehicle_check.h"
 #include "report/vehicle_prediction.h"
 #include "sim/layout/layout_of.h"
@@ -26,7 +27,8 @@ namespace navcal::cli {
 namespace {
 
 struct VehicleCheckArguments {
-  std::string layout;
+  std::string layout, config;
+  std::vector<std::string> files;
   bool json = false;
 };
 
@@ -40,7 +42,22 @@ struct VehicleConvertArguments {
   std::string vehicle, output;
 };
 
+void check_recordings(const VehicleCheckArguments& arguments) {
+  const config::Layout layout = config::load_layout(arguments.layout);
+  std::optional<config::Settings> settings;
+  if (!arguments.config.empty()) settings = config::load(arguments.config);
+  analysis::Progress progress("vehicle check", analysis::Progress::Answer::at_the_end);
+  const identify::ConventionCheck found =
+      identify::check_conventions(layout, load_motions(arguments.files, settings, progress),
+                                  [&](double done) { progress.show("checking", done); });
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(arguments.json ? report::conventions_json(found) : report::conventions_text(found));
+  output.flush();
+}
+
 void check_layout(const VehicleCheckArguments& arguments) {
+  if (!arguments.files.empty())
+    return with_exit_statuses([&] { check_recordings(arguments); }, analysis::Exit::bad_input);
   config::Layout layout;
   try {
     layout = config::load_layout(arguments.layout);
@@ -109,15 +126,22 @@ void convert_vehicle(const VehicleConvertArguments& arguments) {
 void add_vehicle_check(CLI::App& vehicle) {
   const auto arguments = std::make_shared<VehicleCheckArguments>();
   auto* const command = vehicle.add_subcommand("check", "What a layout amounts to, and what is odd about it");
-  command->add_option("FILE", arguments->layout, "Layout of a vehicle (.toml)")->required();
+  command->add_option("LAYOUT", arguments->layout, "Layout of a vehicle (.toml)")->required();
+  command->add_option("FILE", arguments->files, "Recordings with commands, to be checked for wrong conventions");
+  command->add_option("--config", arguments->config, "Configuration of all recordings, instead of their own")
+      ->option_text("FILE.toml");
   command->add_flag("--json", arguments->json, "One JSON object");
   command->footer(
       "Shows masses, trim, stability, natural periods, terminal speeds, turning circle, glides, and which degrees "
       "of\n"
       "freedom the actuators command. Each oddity names the number that shows it and the key to look at. Exit "
       "status 0\n"
-      "also with oddities; 1 when the layout cannot be simulated, 3 when it cannot be read.\n\n"
-      "Example: navcal vehicle check /usr/share/navcal/vehicles/remus-100.toml");
+      "also with oddities; 1 when the layout cannot be simulated, 3 when it cannot be read.\n"
+      "With recordings: whether units, signs and frames of their channels agree with each other, and the motion "
+      "with "
+      "the\n"
+      "commands. docs/vehicles.md lists what is found.\n\n"
+      "Example: navcal vehicle check remus-100.toml dive.mcap");
   command->callback([arguments] { check_layout(*arguments); });
 }
 

@@ -75,4 +75,14 @@ std::string vehicle_check_json(const config::Layout& layout, const sim::Assessme
   return out.dump() + "\n";
 }
 
+std::string conventions_json(const identify::ConventionCheck& found) {
+  VehicleJson out{{"conventions", VehicleJson::array()}, {"not_checked", found.not_checked}};
+  for (const identify::Convention& convention : found.found)
+    out["conventions"].push_back({{"name", convention.name},
+                                  {"what", convention.what},
+                                  {"probability", convention.probability},
+                                  {"sentence", convention.sentence}});
+  return out.dump() + "\n";
+}
+
 }  // namespace navcal::report

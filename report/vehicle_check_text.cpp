@@ -82,4 +82,14 @@ std::string vehicle_check_text(const config::Layout& layout, const sim::Assessme
   return out;
 }
 
+std::string conventions_text(const identify::ConventionCheck& found) {
+  std::string out;
+  for (const identify::Convention& convention : found.found)
+    out += fmt::format("{} of {} (probability {:.3f}): {}\n", convention.name, convention.what,
+                       convention.probability, convention.sentence);
+  for (const std::string& missing : found.not_checked) out += missing + "\n";
+  if (found.found.empty()) out += "no unit, sign or frame is wrong in what was checked\n";
+  return out;
+}
+
 }  // namespace navcal::report

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "identify/answer/prediction.h"
+#include "identify/conventions/conventions.h"
 
 namespace navcal::identify {
 namespace {
@@ -207,6 +208,8 @@ Identification identify(const IdentifyRequest& request, const FitProgress& progr
   }
   PredictionErrorProblem& problem = *used.problem;
   answer.warnings = problem.oddities();
+  for (const Convention& wrong : check_conventions(request.prior, request.recordings, [](double) {}).found)
+    answer.warnings.push_back(fmt::format("{} of {}? {}", wrong.name, wrong.what, wrong.sentence));
   answer.left_out = used.left_out;
   const Eigen::VectorXd values = found.unknowns.head(count), priors = prior_values(parameters);
   answer.model_error = found.model_error;

@@ -11,36 +11,18 @@
 
 #include "base/angles.h"
 #include "identify/data/actuator_inputs.h"
+#include "identify/data/gridded.h"
 #include "identify/replay/replayed_motion.h"
 
 namespace navcal::identify {
 namespace {
 
-constexpr double kGrid_s = 0.1;
 constexpr int kModelSteps = 5;  ///< of the layout's vehicle, in one of the grid
 constexpr double kModelStep_s = kGrid_s / kModelSteps;
-constexpr double kGap_s = 2;               ///< between readings, which are interpolated within
 constexpr std::ptrdiff_t kSlopeSteps = 3;  ///< steps of the grid before and behind, for a derivative
 constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};  ///< steps of the grid
 constexpr double kSteered = 3;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-/// Readings on the grid, NaN where none are near; angles without jumps.
-std::vector<double> on_grid(const RecordedMotion& motion, Channel channel, std::size_t rows) {
-  std::vector<double> out(rows, kNone);
-  const auto& readings = motion[channel];
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < rows; ++k) {
-    const double time_s = kGrid_s * static_cast<double>(k);
-    while (next < readings.size() && readings[next].time_s < time_s) ++next;
-    if (next == 0 || next == readings.size()) continue;
-    const Reading &a = readings[next - 1], &b = readings[next];
-    if (b.time_s - a.time_s > kGap_s) continue;
-    const double change = describe(channel).is_angle ? base::wrapped(b.value - a.value) : b.value - a.value;
-    out[k] = a.value + (time_s - a.time_s) / (b.time_s - a.time_s) * change;
-  }
-  return out;
-}
 
 /// The body a step later at this velocity, whose derivative is given.
 sim::Body moved(const sim::Body& body, const sim::Vector6& acceleration, double step_s) {
@@ -77,7 +59,7 @@ Track::Track(const config::Layout& layout, const RecordedMotion& motion) {
   if (!inputs.missing().empty()) throw std::invalid_argument(motion.name + ": " + inputs.missing().front());
   if (!motion.has(Channel::heading)) throw std::invalid_argument(motion.name + ": no heading is recorded");
   actuators = inputs.trajectory(layout);
-  const auto rows = static_cast<std::size_t>(motion.duration_s / kGrid_s) + 1;
+  const std::size_t rows = grid_rows(motion);
   const auto grid = [&](Channel channel) { return on_grid(motion, channel, rows); };
   const auto or_zero = [&](Channel channel) {
     return motion.has(channel) ? grid(channel) : std::vector<double>(rows, 0.0);

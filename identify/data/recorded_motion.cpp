@@ -14,6 +14,7 @@
 #include "devices/instrument_model.h"
 #include "instruments/compass_error.h"
 #include "instruments/samples.h"
+#include "pipeline/earth_field.h"
 #include "pipeline/pipeline.h"
 #include "protocols/frame.h"
 #include "protocols/motor_card.h"
@@ -43,7 +44,7 @@ struct Source {
 class MotionGatherer final : public pipeline::Sink {
  public:
   MotionGatherer(const config::Settings& settings, const devices::InstrumentModel& model)
-      : settings_(settings), model_(model), sources_(settings.ports.size()) {}
+      : settings_(settings), model_(model), field_(settings.environment), sources_(settings.ports.size()) {}
 
   void on_sample(const instruments::Sample& sample) override {
     port_ = sample.port;
@@ -92,6 +93,8 @@ class MotionGatherer final : public pipeline::Sink {
 
   const config::Settings& settings_;
   const devices::InstrumentModel& model_;
+  pipeline::EarthFieldWatch field_;
+  bool heading_is_true_ = false;
   std::vector<std::array<Source, kChannels>> sources_;
   std::map<std::string, std::pair<std::vector<std::int64_t>, std::vector<double>>> signals_;
   std::set<std::string> pulses_;  ///< signals in us
@@ -123,6 +126,7 @@ void MotionGatherer::add(const instruments::CompassSample& sample) {
   // Tilt that was made of the accelerometers says what they say once more.
   if (sample.roll_rad && !sample.tilt_by_accelerometers) put(Channel::roll, *sample.roll_rad, tilt_std);
   if (sample.pitch_rad && !sample.tilt_by_accelerometers) put(Channel::pitch, *sample.pitch_rad, tilt_std);
+  if (sample.heading_rad) heading_is_true_ = sample.heading_is_true;
   if (sample.heading_rad)
     put(Channel::heading, *sample.heading_rad,
         sample.heading_std_rad.value_or(model_.compass.heading_noise_rad()));
@@ -138,6 +142,7 @@ void MotionGatherer::add(const instruments::GpsSample& sample) {
   using instruments::Fix;
   if (!sample.latitude_rad || !sample.longitude_rad || (sample.fix != Fix::fix_2d && sample.fix != Fix::fix_3d))
     return;
+  field_.take(sample);
   fix_number_ = static_cast<double>(time_ns_ - last_fix_ns_) < kSightLost_s * 1e9 ? fix_number_ + 1 : 0;
   last_fix_ns_ = time_ns_;
   if (!plane_) plane_.emplace(*sample.latitude_rad, *sample.longitude_rad);
@@ -239,6 +244,9 @@ RecordedMotion MotionGatherer::take(std::int64_t begin_ns) {
   motion.fins_are_reported = fins_are_reported_;
   if (motion.tilt_lag_s > 0 && field_level_uT_ > 0) motion.dip_rad = std::atan2(field_down_uT_, field_level_uT_);
   motion.gyro_turn_on_rad_s = model_.imu.turn_on_bias_rad_s;
+  motion.heading_is_true = heading_is_true_;
+  if (field_.field().declination_source != pipeline::EarthField::Source::none)
+    motion.declination_rad = field_.field().declination_rad;
   return motion;
 }
 

@@ -49,6 +49,8 @@ struct RecordedMotion {
   double tilt_lag_s = 0;          ///< first-order lag of roll and pitch
   double dip_rad = 0;             ///< of the Earth's field, by the compass; only with a lag
   double gyro_turn_on_rad_s = 0;  ///< standard deviation of the bias at power-on
+  bool heading_is_true = false;   ///< as the device states it; else magnetic
+  std::optional<double> declination_rad;  ///< by the configuration, else by the model at the fixes; positive east
   std::vector<std::string> remarks;
 
   [[nodiscard]] const std::vector<Reading>& operator[](Channel channel) const {

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/conventions/conventions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/angles.h"
+#include "base/gravity.h"
+#include "identify/conventions/agreement.h"
+#include "identify/data/gridded.h"
+#include "identify/replay/replayed_motion.h"
+
+namespace navcal::identify {
+namespace {
+
+using MotionChange = std::function<void(RecordedMotion&)>;
+constexpr double kDegrees = base::kDegreesPerRadian;
+constexpr std::size_t kMost = 4;  ///< conventions that are named
+constexpr double kLogPrior = -4;  ///< of each cause against "all is right"
+constexpr double kSure = 0.9;
+constexpr double kSame = 1e-6;
+constexpr double kUsual =
+    2.5;  ///< log prior of a heading from east, counter-clockwise, beside one that is reversed only
+constexpr double kMended = 0.3;     ///< what is left of a residual's square where a convention explains it
+constexpr double kLongest_s = 600;  ///< of a recording: more tells no more
+constexpr double kHour_s = 3600, kQuarter_s = 900;
+
+/// An error of conventions, and what undoes it.
+struct Suspect {
+  std::string name, what, words;  ///< "with ..., they agree"
+  MotionChange motion = [](RecordedMotion&) {};
+  ActuatorChange actuators = [](sim::ActuatorValues&) {};
+  double log_prior = 0;  ///< beside the others
+};
+
+std::vector<Reading>& readings(RecordedMotion& motion, Channel channel) {
+  return motion.channels[static_cast<std::size_t>(channel)];
+}
+Channel next_of(Channel first, std::size_t i) { return static_cast<Channel>(static_cast<std::size_t>(first) + i); }
+
+MotionChange scaled(std::vector<Channel> channels, double factor, double offset = 0) {
+  return [=](RecordedMotion& motion) {
+    for (const Channel channel : channels) {
+      // Angles were wrapped after the error was made.
+      double whole = 0, last = 0;
+      for (Reading& reading : readings(motion, channel)) {
+        if (describe(channel).is_angle) {
+          whole += base::wrapped(reading.value - last);
+          last = reading.value;
+          reading.value = whole;
+        }
+        reading.value = factor * reading.value + offset;
+        reading.std *= std::abs(factor);
+      }
+    }
+  };
+}
+MotionChange swapped(Channel a, Channel b) {
+  return [=](RecordedMotion& motion) { std::swap(readings(motion, a), readings(motion, b)); };
+}
+MotionChange all_of(std::vector<MotionChange> changes) {
+  return [=](RecordedMotion& motion) {
+    for (const auto& change : changes) change(motion);
+  };
+}
+
+/// Turns vectors of three channels by a matrix that may depend on the attitude then.
+MotionChange turned(Channel first,
+                    const std::function<Eigen::Vector3d(const Eigen::Vector3d&, const Eigen::Vector3d&)>& by) {
+  return [=](RecordedMotion& motion) {
+    const std::size_t rows = grid_rows(motion);
+    std::array<std::vector<double>, 3> angles;
+    for (std::size_t i = 0; i < 3; ++i) {
+      angles[i] = on_grid(motion, next_of(Channel::roll, i), rows);
+      if (!motion.has(next_of(Channel::roll, i))) angles[i].assign(rows, 0.0);
+    }
+    auto &x = readings(motion, first), &y = readings(motion, next_of(first, 1)),
+         &z = readings(motion, next_of(first, 2));
+    for (std::size_t k = 0; k < std::min({x.size(), y.size(), z.size()}); ++k) {
+      const auto row = std::min(static_cast<std::size_t>(std::max(0.0, x[k].time_s) / kGrid_s), rows - 1);
+      const Eigen::Vector3d out =
+          by({x[k].value, y[k].value, z[k].value}, {angles[0][row], angles[1][row], angles[2][row]});
+      x[k].value = out.x();
+      y[k].value = out.y();
+      z[k].value = out.z();
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      std::erase_if(readings(motion, next_of(first, i)),
+                    [](const Reading& reading) { return !std::isfinite(reading.value); });
+  };
+}
+
+/// A sensor of three axes.
+struct Triad {
+  Channel first;
+  std::string_view name, words;
+};
+constexpr std::array<Triad, 4> kTriads{{{Channel::rate_x, "rate", "the rates"},
+                                        {Channel::force_x, "force", "the specific force"},
+                                        {Channel::bottom_x, "bottom", "the velocity over the bottom"},
+                                        {Channel::water_x, "water", "the velocity through the water"}}};
+constexpr std::array<char, 3> kAxisLetters{'x', 'y', 'z'};
+
+std::string of_axis(const Triad& triad, std::size_t i) {
+  return fmt::format("{}_{}", triad.name, kAxisLetters[i]);
+}
+
+void add_triad(const Triad& triad, std::vector<Suspect>& out) {
+  const auto axis = [&](std::size_t i) { return next_of(triad.first, i); };
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.push_back({"sign", of_axis(triad, i), of_axis(triad, i) + " reversed", scaled({axis(i)}, -1)});
+    const std::size_t j = (i + 1) % 3;
+    out.push_back({"axis_swapped", of_axis(triad, i) + ", " + of_axis(triad, j),
+                   fmt::format("{} and {} exchanged", of_axis(triad, i), of_axis(triad, j)),
+                   swapped(axis(i), axis(j))});
+  }
+  const std::string name(triad.name), words(triad.words);
+  if (triad.first != Channel::force_x)
+    out.push_back({"sign", name, words + " reversed", scaled({axis(0), axis(1), axis(2)}, -1)});
+  out.push_back({"body_frame", name, words + " turned from forward, left, up to forward, right, down",
+                 scaled({axis(1), axis(2)}, -1)});
+}
+
+MotionChange to_frd() {
+  std::vector<Channel> channels{Channel::pitch};
+  for (const Triad& triad : kTriads)
+    channels.insert(channels.end(), {next_of(triad.first, 1), next_of(triad.first, 2)});
+  return scaled(channels, -1);
+}
+
+/// What may be wrong with the instruments.
+std::vector<Suspect> suspects_of_instruments(const RecordedMotion& motion) {
+  std::vector<Suspect> out;
+  for (const Triad& triad : kTriads)
+    if (motion.has(triad.first)) add_triad(triad, out);
+  out.push_back(
+      {"body_frame", "body", "body axes turned from forward, left, up to forward, right, down", to_frd()});
+  for (const auto& [channel, name] :
+       {std::pair{Channel::roll, "roll"}, {Channel::pitch, "pitch"}, {Channel::heading, "heading"}}) {
+    out.push_back({"sign", name, fmt::format("{} reversed", name), scaled({channel}, -1)});
+  }
+  const auto in_degrees = [&](const std::string& what, const std::vector<Channel>& channels) {
+    for (const auto& [unit, factor] : {std::pair{"degrees", 1 / kDegrees}, {"radians", kDegrees}})
+      out.push_back(
+          {"degrees_for_radians", what, fmt::format("{} taken in {}", what, unit), scaled(channels, factor)});
+    out.push_back({"", what, "", scaled(channels, 0)});  // noise agrees better the less of it there is
+  };
+  const std::vector<Channel> rates{Channel::rate_x, Channel::rate_y, Channel::rate_z};
+  in_degrees("roll, pitch", {Channel::roll, Channel::pitch});
+  in_degrees("heading", {Channel::heading});
+  in_degrees("roll, pitch, heading", {Channel::roll, Channel::pitch, Channel::heading});
+  in_degrees("rate", rates);
+  out.push_back(
+      {"axis_swapped", "roll, pitch", "roll and pitch exchanged", swapped(Channel::roll, Channel::pitch)});
+  out.push_back({"sign", "second_yaw_rate", "the second gyro reversed", scaled({Channel::second_yaw_rate}, -1)});
+  for (const auto& [channel, name] : {std::pair{Channel::depth, "depth"}, {Channel::gauge_depth, "gauge_depth"}})
+    out.push_back({"sign", name, fmt::format("{} positive downwards", name), scaled({channel}, -1)});
+
+  const std::vector<Channel> forces{Channel::force_x, Channel::force_y, Channel::force_z};
+  out.push_back({"gravity", "force", "the accelerometers' sign reversed", scaled(forces, -1)});
+  out.push_back({"gravity", "force", "the specific force in units of g", scaled(forces, base::kGravity_m_s2)});
+  for (const double sign : {1.0, -1.0})
+    out.push_back({"gravity", "force", "gravity in the specific force again",
+                   turned(Channel::force_x,
+                          [sign](const Eigen::Vector3d& force, const Eigen::Vector3d& euler) -> Eigen::Vector3d {
+                            return sign * force -
+                                   world_from_body(euler).transpose() * Eigen::Vector3d(0, 0, base::kGravity_m_s2);
+                          })});
+
+  const MotionChange places = swapped(Channel::north, Channel::east);
+  const MotionChange velocities = swapped(Channel::north_velocity, Channel::east_velocity);
+  const MotionChange headings = scaled({Channel::heading}, -1, std::numbers::pi / 2);
+  out.push_back({"north_east", "position", "north and east of the position exchanged", places});
+  out.push_back({"north_east", "velocity", "north and east of the receiver's velocity exchanged", velocities});
+  out.push_back({"north_east", "position, velocity", "north and east exchanged", all_of({places, velocities})});
+  out.push_back({"north_east", "heading", "the heading counted from north, clockwise", headings});
+  out.back().log_prior = kUsual;
+  out.push_back({"north_east", "position, velocity, heading",
+                 "north and east exchanged, and the heading from north", all_of({places, velocities, headings})});
+
+  const auto doppler =
+      [&](std::string what, std::string words,
+          const std::function<Eigen::Vector3d(const Eigen::Vector3d&, const Eigen::Vector3d&)>& by) {
+        out.push_back({"dvl_frame", std::move(what), std::move(words),
+                       all_of({turned(Channel::bottom_x, by), turned(Channel::water_x, by)})});
+      };
+  doppler("dvl", "the Doppler log's velocity turned from north, east, down into the body",
+          [](const Eigen::Vector3d& v, const Eigen::Vector3d& euler) -> Eigen::Vector3d {
+            return world_from_body(euler).transpose() * v;
+          });
+  doppler("dvl", "the Doppler log's velocity turned from east, north, up into the body",
+          [](const Eigen::Vector3d& v, const Eigen::Vector3d& euler) -> Eigen::Vector3d {
+            return world_from_body(euler).transpose() * Eigen::Vector3d(v.y(), v.x(), -v.z());
+          });
+  for (const double angle_deg : {45.0, -45.0, 90.0, -90.0, 180.0})
+    doppler("dvl", fmt::format("the Doppler log turned by {:.0f} degrees", angle_deg),
+            [angle_deg](const Eigen::Vector3d& v, const Eigen::Vector3d&) -> Eigen::Vector3d {
+              return Eigen::AngleAxisd(angle_deg / kDegrees, Eigen::Vector3d::UnitZ()) * v;
+            });
+
+  const auto lever = [&](Eigen::Vector3d RecordedMotion::*place, std::string what) {
+    if ((motion.*place).norm() > 0)
+      out.push_back({"lever_arm_sign", what, fmt::format("the place of {} with the other sign", what),
+                     [place](RecordedMotion& of) { of.*place = -(of.*place); }});
+  };
+  lever(&RecordedMotion::imu_place_m, "imu");
+  lever(&RecordedMotion::gauge_place_m, "gauge");
+  lever(&RecordedMotion::doppler_place_m, "dvl");
+  lever(&RecordedMotion::antenna_place_m, "antenna");
+  return out;
+}
+
+/// What may be wrong with the commands. Parts are numbered from 1, as in the layout.
+std::vector<Suspect> suspects_of_actuators(const config::Layout& layout) {
+  std::vector<Suspect> out;
+  const sim::ActuatorValues neutral = sim::ActuatorValues::neutral(layout);
+  using Numbers = sim::ActuatorNumbers sim::ActuatorValues::*;
+  const auto scale = [&](std::string name, std::string what, std::string words, Numbers part,
+                         std::vector<std::size_t> of, double factor) {
+    out.push_back({std::move(name), std::move(what), std::move(words), [](RecordedMotion&) {},
+                   [=](sim::ActuatorValues& values) {
+                     for (const std::size_t i : of) {
+                       const double rest = (neutral.*part)[i];
+                       (values.*part)[i] = rest + factor * ((values.*part)[i] - rest);
+                     }
+                   }});
+  };
+  const auto add = [&](std::string_view kind, Numbers part) {
+    const std::size_t n = (neutral.*part).size();
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < n; ++i) {
+      all.push_back(i);
+      const std::string one = fmt::format("{}.{}", kind, i + 1);
+      scale("actuator_reversed", one, one + " reversed", part, {i}, -1);
+      // A fault of the part, which is no convention, must not pass for one.
+      scale("", one, one + " dead", part, {i}, 0);
+      for (std::size_t j = i + 1; j < n; ++j) {
+        const std::string other = fmt::format("{}.{}", kind, j + 1);
+        out.push_back({"actuator_order", one + ", " + other, fmt::format("{} and {} exchanged", one, other),
+                       [](RecordedMotion&) {},
+                       [=](sim::ActuatorValues& values) { std::swap((values.*part)[i], (values.*part)[j]); },
+                       -std::log(static_cast<double>(n * (n - 1) / 2))});
+      }
+    }
+    if (n < 2) return;
+    scale("actuator_reversed", std::string(kind), fmt::format("all of {} reversed", kind), part, all, -1);
+    out.push_back(
+        {"actuator_order", std::string(kind), fmt::format("{} in the opposite order", kind),
+         [](RecordedMotion&) {},
+         [=](sim::ActuatorValues& values) { std::reverse((values.*part).begin(), (values.*part).end()); }});
+  };
+  add("thruster", &sim::ActuatorValues::thrusters);
+  add("surface", &sim::ActuatorValues::surfaces_rad);
+  std::vector<std::size_t> surfaces;
+  for (std::size_t i = 0; i < neutral.surfaces_rad.size(); ++i) surfaces.push_back(i);
+  if (!surfaces.empty()) {
+    scale("degrees_for_radians", "surface", "the surfaces' angles taken as degrees",
+          &sim::ActuatorValues::surfaces_rad, surfaces, 1 / kDegrees);
+    scale("degrees_for_radians", "surface", "the surfaces' angles taken as radians",
+          &sim::ActuatorValues::surfaces_rad, surfaces, kDegrees);
+  }
+  return out;
+}
+
+/// Channels and signals that lie whole quarters of an hour beside the others are moved there.
+std::vector<Convention> mend_time_zones(RecordedMotion& motion) {
+  struct Span {
+    std::string name;
+    std::vector<double*> times;
+  };
+  std::vector<Span> spans;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    Span span{std::string(kChannelDescriptions[c].name), {}};
+    for (Reading& reading : motion.channels[c]) span.times.push_back(&reading.time_s);
+    if (!span.times.empty()) spans.push_back(std::move(span));
+  }
+  for (auto& [name, signal] : motion.signals) {
+    Span span{name, {}};
+    for (double& time_s : signal.times_s) span.times.push_back(&time_s);
+    if (!span.times.empty()) spans.push_back(std::move(span));
+  }
+  std::vector<Convention> found;
+  const auto most = std::max_element(spans.begin(), spans.end(),
+                                     [](const Span& a, const Span& b) { return a.times.size() < b.times.size(); });
+  if (most == spans.end()) return found;
+  const double begin_s = *most->times.front(), end_s = *most->times.back();
+  for (const Span& span : spans) {
+    const double first_s = *span.times.front(), last_s = *span.times.back();
+    if (first_s < end_s && last_s > begin_s) continue;
+    const double apart_s = (first_s + last_s - begin_s - end_s) / 2;
+    const double zone_s = std::round(apart_s / kQuarter_s) * kQuarter_s;
+    if (zone_s == 0 || std::abs(apart_s - zone_s) > (end_s - begin_s) / 2) continue;
+    for (double* time_s : span.times) *time_s -= zone_s;
+    found.push_back(
+        {"time_zone", span.name, 0.99,
+         fmt::format("The times of {} are {:+.2f} h from those of the others.", span.name, zone_s / kHour_s)});
+  }
+  motion.duration_s = end_s;
+  return found;
+}
+
+/// Declination by the Earth's field and turn to the track: a heading that is true already.
+std::optional<Convention> twice(const RecordedMotion& motion, const Agreement& agreement) {
+  constexpr double kDeviation_rad = 0.035;  ///< of a calibrated compass
+  constexpr double kFar = 4, kNear = 1.5;
+  if (!motion.declination_rad || !agreement.track_turn_rad) return std::nullopt;
+  const double declination = *motion.declination_rad, right = motion.heading_is_true ? 0 : declination;
+  const double sigma = std::hypot(agreement.track_turn_std_rad, kDeviation_rad);
+  const double off = base::wrapped(*agreement.track_turn_rad - right);
+  if (std::abs(off) < kFar * sigma || std::abs(off + declination) > kNear * sigma) return std::nullopt;
+  return Convention{"declination_twice", "heading", 0.95,
+                    fmt::format("The track lies {:+.1f} degrees from the heading, with the declination of {:+.1f} "
+                                "degrees taken into account: "
+                                "the heading contains it already.",
+                                off * kDegrees, declination * kDegrees)};
+}
+
+/// All recordings with their commands.
+class Bench {
+ public:
+  Bench(const config::Layout& layout, std::vector<RecordedMotion> motions)
+      : layout_(layout), vehicle_(layout), motions_(std::move(motions)) {
+    for (const RecordedMotion& motion : motions_) {
+      const ActuatorInputs inputs(layout_, motion);
+      for (const std::string& missing : inputs.missing()) missing_.push_back(motion.name + ": " + missing);
+      actuators_.push_back(inputs.missing().empty() ? std::optional(inputs.trajectory(layout_)) : std::nullopt);
+    }
+  }
+  [[nodiscard]] std::vector<Agreement> agreements(const Suspect& suspect) const {
+    std::vector<Agreement> out;
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      RecordedMotion motion = motions_[i];
+      suspect.motion(motion);
+      out.push_back(agreement_of(vehicle_, motion, actuators_[i] ? &*actuators_[i] : nullptr,
+                                 [&](sim::ActuatorValues& values) {
+                                   for (const ActuatorChange& change : mended_) change(values);
+                                   suspect.actuators(values);
+                                 }));
+    }
+    return out;
+  }
+  void mend(const Suspect& suspect) {
+    for (RecordedMotion& motion : motions_) suspect.motion(motion);
+    mended_.push_back(suspect.actuators);
+  }
+  [[nodiscard]] const std::vector<RecordedMotion>& motions() const { return motions_; }
+  [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
+
+ private:
+  const config::Layout& layout_;
+  sim::LayoutVehicle vehicle_;
+  std::vector<RecordedMotion> motions_;
+  std::vector<std::optional<ActuatorTrajectory>> actuators_;
+  std::vector<ActuatorChange> mended_;
+  std::vector<std::string> missing_;
+};
+
+/// How much better the recordings agree: gain of log likelihood, and the relation that gains most.
+struct Gain {
+  double nats = 0, most = 0;
+  std::size_t relation = 0;
+  double before = 0, after = 0;  ///< its rms
+  bool is_mended = false;
+};
+Gain gain_of(const std::vector<Agreement>& before, const std::vector<Agreement>& after) {
+  Gain all;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    for (std::size_t r = 0; r < kRelations; ++r) {
+      const Residual &a = before[i].of[r], &b = after[i].of[r];
+      // Windows that a suspect makes impossible do not speak for it.
+      if (a.count <= 0 || b.count <= 0 || (b.windows < a.windows && b.mean_square < a.mean_square)) continue;
+      const double nats =
+          (a.mean_square > b.mean_square ? a.count : b.count) / 2 * std::log(a.mean_square / b.mean_square);
+      all.nats += nats;
+      if (nats <= all.most) continue;
+      all.most = nats;
+      all.relation = r;
+      all.before = std::sqrt(a.mean_square);
+      all.after = std::sqrt(b.mean_square);
+      all.is_mended = b.mean_square < kMended * a.mean_square;
+    }
+  }
+  return all;
+}
+
+std::string not_checked_words(const RecordedMotion& motion, const Agreement& agreement) {
+  std::string out;
+  for (std::size_t r = 0; r < kRelations; ++r)
+    if (agreement.of[r].count <= 0)
+      out += fmt::format("{}{}", out.empty() ? "" : ", ", kRelationDescriptions[r].words);
+  return out.empty() ? out : motion.name + ": not measured: " + out;
+}
+
+}  // namespace
+
+ConventionCheck check_conventions(const config::Layout& layout, std::vector<RecordedMotion> motions,
+                                  const std::function<void(double)>& progress) {
+  ConventionCheck all;
+  for (RecordedMotion& motion : motions) {
+    const auto zones = mend_time_zones(motion);
+    all.found.insert(all.found.end(), zones.begin(), zones.end());
+    motion.duration_s = std::min(motion.duration_s, kLongest_s);
+  }
+  if (motions.empty()) return all;
+  Bench bench(layout, std::move(motions));
+  all.not_checked = bench.missing();
+  std::vector<Suspect> suspects = suspects_of_instruments(bench.motions().front());
+  for (Suspect& suspect : suspects_of_actuators(layout)) suspects.push_back(std::move(suspect));
+
+  for (std::size_t round = 0; round < kMost; ++round) {
+    const auto before = bench.agreements({});
+    if (round == 0)
+      for (std::size_t i = 0; i < before.size(); ++i)
+        if (const auto words = not_checked_words(bench.motions()[i], before[i]); !words.empty())
+          all.not_checked.push_back(words);
+    std::vector<Gain> gains;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < suspects.size(); ++i) {
+      progress((static_cast<double>(round) + static_cast<double>(i) / static_cast<double>(suspects.size())) /
+               kMost);
+      gains.push_back(gain_of(before, bench.agreements(suspects[i])));
+      gains[i].nats += suspects[i].log_prior;
+      if (gains[i].nats > gains[best].nats) best = i;
+    }
+    double sum = std::exp(-kLogPrior - gains[best].nats), of_name = 0, of_part = 0;
+    for (std::size_t i = 0; i < gains.size(); ++i) {
+      const double weight = std::exp(gains[i].nats - gains[best].nats);
+      sum += weight;
+      if (suspects[i].name != suspects[best].name) continue;
+      of_name += weight;
+      // Where a channel is missing, two suspects may be one.
+      if (suspects[i].what == suspects[best].what || std::abs(gains[i].nats - gains[best].nats) < kSame)
+        of_part += weight;
+    }
+    const Gain& gain = gains[best];
+    if (of_name / sum < kSure || !gain.is_mended) break;
+    if (suspects[best].name.empty()) break;
+    bench.mend(suspects[best]);
+    const RelationDescription& relation = kRelationDescriptions[gain.relation];
+    all.found.push_back(
+        {suspects[best].name, suspects[best].what, of_part / sum,
+         fmt::format("With {}, the {} agrees within {:.2g} {} instead of {:.2g} {}.", suspects[best].words,
+                     relation.words, gain.after, relation.unit, gain.before, relation.unit)});
+  }
+  const auto now = bench.agreements({});
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (const auto convention = twice(bench.motions()[i], now[i])) {
+      all.found.push_back(*convention);
+      break;
+    }
+  }
+  return all;
+}
+
+}  // namespace navcal::identify
