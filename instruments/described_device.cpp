@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/described_device.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "instruments/sample_fields.h"
+#include "protocols/described/reading.h"
 
 namespace navcal::instruments {
 namespace {
@@ -46,14 +48,12 @@ class FrameSink {
       : sequence_(sequence), utc_ns_(utc_ns), receiver_(receiver) {}
 
   void take(const Value& value, bool utc_is_known = false) {
-    Measurement measurement;
-    measurement.value = value;
-    measurement.sequence = sequence_;
-    measurement.stated_utc_ns = utc_ns_;
-    measurement.utc_is_known = utc_is_known;
-    measurement.paces = !any_;
+    receiver_.on_measurement({.value = value,
+                              .sequence = sequence_,
+                              .stated_utc_ns = utc_ns_,
+                              .utc_is_known = utc_is_known,
+                              .paces = !any_});
     any_ = true;
-    receiver_.on_measurement(measurement);
   }
   [[nodiscard]] bool any() const { return any_; }
 
@@ -64,9 +64,40 @@ class FrameSink {
   bool any_ = false;
 };
 
-}  // namespace
+/// A mission sensor among the fields.
+struct Sensor {
+  std::size_t field = 0;
+  Text<24> quantity;
+  Text<16> unit;
+  std::optional<double> std;
+};
 
-DescribedDevice::Kind::Kind(const FrameKind& kind, bool is_text)
+/// One kind of frame: where its values go, and which samples they make.
+struct Kind {
+  explicit Kind(const FrameKind& kind, bool is_text);
+
+  protocols::FrameId id;
+  protocols::described::FrameReader reader;
+  std::vector<Meaning> meanings;  ///< of the fields, in their order
+  std::vector<double> values;     ///< of the newest frame, in the same order; NaN: absent
+  /// The same by meaning; those that the frame does not have are always NaN.
+  std::array<double, protocols::described::kMeaningCount> by_meaning{};
+  std::array<std::optional<double>, protocols::described::kMeaningCount> std_by_meaning;
+  std::vector<Sensor> sensors;
+  bool is_imu = false, is_compass = false, is_gps = false, is_motor = false, is_power = false, is_dvl = false,
+       is_depth = false, is_altimeter = false, is_thermometer = false;
+  bool has_card_state = false;
+
+  [[nodiscard]] std::optional<double> value(Meaning meaning) const;
+  [[nodiscard]] std::optional<double> std(Meaning meaning) const {
+    return std_by_meaning[static_cast<std::size_t>(meaning)];
+  }
+  [[nodiscard]] bool flag(Meaning meaning) const { return value(meaning).value_or(0) != 0; }
+  /// All three of consecutive meanings, or nothing.
+  [[nodiscard]] std::optional<Vector3> vector(Meaning first) const;
+};
+
+Kind::Kind(const FrameKind& kind, bool is_text)
     : id(kind.id), reader(kind, is_text), values(kind.fields.size(), kAbsent) {
   by_meaning.fill(kAbsent);
   for (std::size_t i = 0; i < kind.fields.size(); ++i) {
@@ -91,34 +122,20 @@ DescribedDevice::Kind::Kind(const FrameKind& kind, bool is_text)
   has_card_state = has_any(meanings, {M::leak_forward, M::leak_aft, M::low_supply});
 }
 
-std::optional<double> DescribedDevice::Kind::value(Meaning meaning) const {
+std::optional<double> Kind::value(Meaning meaning) const {
   const double number = by_meaning[place(meaning)];
   return std::isnan(number) ? std::nullopt : std::optional(number);
 }
 
-std::optional<Vector3> DescribedDevice::Kind::vector(Meaning first) const {
+std::optional<Vector3> Kind::vector(Meaning first) const {
   const double* const numbers = by_meaning.data() + place(first);
   if (std::isnan(numbers[0]) || std::isnan(numbers[1]) || std::isnan(numbers[2])) return std::nullopt;
   return Vector3{numbers[0], numbers[1], numbers[2]};
 }
 
-DescribedDevice::DescribedDevice(const config::PortSettings& settings) {
-  if (!settings.described) return;
-  for (const FrameKind& kind : settings.described->kinds) kinds_.emplace_back(kind, settings.described->is_text);
-}
-
-Instrument::Verdict DescribedDevice::read(const protocols::Frame& frame, Receiver& receiver) {
-  const auto found =
-      std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.id == frame.id; });
-  if (found == kinds_.end()) return Verdict::ignored;
-  Kind& kind = *found;
-  if (!kind.reader.read(frame.bytes, kind.values)) return Verdict::out_of_range;
-  for (std::size_t i = 0; i < kind.values.size(); ++i) kind.by_meaning[place(kind.meanings[i])] = kind.values[i];
-  return hand_over(kind, receiver) ? Verdict::used : Verdict::ignored;
-}
-
+/// Members by their meaning; the rules between members are those of the functions below.
 template <class S>
-S DescribedDevice::sample_of(const Kind& kind) {
+S sample_of(const Kind& kind) {
   S sample;
   if constexpr (requires { sample.card; }) {
     if (kind.has_card_state) sample.card.emplace();
@@ -146,7 +163,7 @@ S DescribedDevice::sample_of(const Kind& kind) {
   return sample;
 }
 
-CompassSample DescribedDevice::compass_of(const Kind& kind) {
+CompassSample compass_of(const Kind& kind) {
   auto sample = sample_of<CompassSample>(kind);
   if (const auto heading_true = kind.value(Meaning::heading_true)) {
     sample.heading_is_true = true;
@@ -158,7 +175,7 @@ CompassSample DescribedDevice::compass_of(const Kind& kind) {
   return sample;
 }
 
-GpsSample DescribedDevice::gps_of(const Kind& kind) {
+GpsSample gps_of(const Kind& kind) {
   auto sample = sample_of<GpsSample>(kind);
   if (sample.longitude_rad) sample.longitude_rad = base::wrapped(*sample.longitude_rad);
   const bool has_place = sample.latitude_rad && sample.longitude_rad;
@@ -167,7 +184,7 @@ GpsSample DescribedDevice::gps_of(const Kind& kind) {
   return sample;
 }
 
-DvlSample DescribedDevice::dvl_of(const Kind& kind) {
+DvlSample dvl_of(const Kind& kind) {
   auto sample = sample_of<DvlSample>(kind);
   if (has_any(kind.meanings, {Meaning::bottom_velocity_north, Meaning::water_velocity_north})) {
     sample.frame = VelocityFrame::earth;
@@ -180,14 +197,15 @@ DvlSample DescribedDevice::dvl_of(const Kind& kind) {
   return sample;
 }
 
-DepthSample DescribedDevice::depth_of(const Kind& kind) {
+DepthSample depth_of(const Kind& kind) {
   auto sample = sample_of<DepthSample>(kind);
   if (kind.is_imu || kind.is_compass || kind.is_dvl) sample.temperature_C.reset();
   if (kind.is_imu) sample.depth_m = sample.depth_std_m = std::nullopt;  // which has the depth
   return sample;
 }
 
-bool DescribedDevice::hand_over(const Kind& kind, Receiver& receiver) {
+/// Hands over the samples of the newest frame; false when it has none.
+bool hand_over_samples(const Kind& kind, Receiver& receiver) {
   const auto utc_s = kind.value(Meaning::utc);
   const auto utc_ns = utc_s ? std::optional(static_cast<std::int64_t>(std::llround(*utc_s * 1e9))) : std::nullopt;
   FrameSink sink(sequence_of(kind.value(Meaning::sequence)), utc_ns, receiver);
@@ -215,6 +233,36 @@ bool DescribedDevice::hand_over(const Kind& kind, Receiver& receiver) {
     if (!std::isnan(value)) sink.take(ScalarSample{sensor.quantity, sensor.unit, value, sensor.std});
   }
   return sink.any();
+}
+
+/// A device that a file describes (docs/devices.md). One frame can give samples of several kinds; the first of
+/// them paces the device's clock.
+class DescribedDevice final : public Instrument {
+ public:
+  /// Without a description in the settings, every frame is ignored.
+  explicit DescribedDevice(const config::PortSettings& settings) {
+    if (!settings.described) return;
+    for (const FrameKind& kind : settings.described->kinds) kinds_.emplace_back(kind, settings.described->is_text);
+  }
+
+  Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+    const auto found =
+        std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.id == frame.id; });
+    if (found == kinds_.end()) return Verdict::ignored;
+    Kind& kind = *found;
+    if (!kind.reader.read(frame.bytes, kind.values)) return Verdict::out_of_range;
+    for (std::size_t i = 0; i < kind.values.size(); ++i) kind.by_meaning[place(kind.meanings[i])] = kind.values[i];
+    return hand_over_samples(kind, receiver) ? Verdict::used : Verdict::ignored;
+  }
+
+ private:
+  std::vector<Kind> kinds_;
+};
+
+}  // namespace
+
+std::unique_ptr<Instrument> make_described(const config::PortSettings& settings) {
+  return std::make_unique<DescribedDevice>(settings);
 }
 
 }  // namespace navcal::instruments

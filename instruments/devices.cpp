@@ -1,25 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The instrument of each device, and its start-up dialogue.
-#include <memory>
+#include "instruments/devices.h"
 
-#include "instruments/described_device.h"
-#include "instruments/imu_card.h"
-#include "instruments/injected_samples.h"
-#include "instruments/instrument.h"
-#include "instruments/keller_gauge.h"
-#include "instruments/mip_sensor.h"
-#include "instruments/motor_card.h"
-#include "instruments/nmea_device.h"
-#include "instruments/oncore_receiver.h"
-#include "instruments/paroscientific_gauge.h"
-#include "instruments/pd0_log.h"
-#include "instruments/pd6_log.h"
-#include "instruments/pni_compass.h"
-#include "instruments/start_ups.h"
-#include "instruments/tcm2_compass.h"
-#include "instruments/ubx_receiver.h"
-#include "instruments/vectornav_sensor.h"
-#include "instruments/water_linked_log.h"
 #include "protocols/device_types.h"
 
 namespace navcal::instruments {
@@ -29,44 +11,41 @@ using config::PortSettings;
 using protocols::Protocol;
 
 struct DeviceMakers {
-  std::unique_ptr<Instrument> (*instrument)(const PortSettings&) = nullptr;
-  std::unique_ptr<StartUp> (*start_up)(const PortSettings&) = nullptr;  ///< nullptr: it takes no commands
+  MakeInstrument* instrument = nullptr;
+  MakeStartUp* start_up = nullptr;  ///< nullptr: it takes no commands
 };
 
-template <class I>
-std::unique_ptr<Instrument> make_plain(const PortSettings&) {
-  return std::make_unique<I>();
-}
-template <class I>
-std::unique_ptr<Instrument> make_configured(const PortSettings& settings) {
-  return std::make_unique<I>(settings);
-}
-std::unique_ptr<Instrument> make_tcm2(const PortSettings& settings) {
-  return std::make_unique<Tcm2Compass>(settings.compass);
-}
-std::unique_ptr<Instrument> make_imu_card(const PortSettings& settings) {
-  return std::make_unique<ImuCard>(settings.imu_card);
+template <Read* read_frame>
+std::unique_ptr<Instrument> stateless(const PortSettings& settings) {
+  struct Stateless final : Instrument {
+    explicit Stateless(const PortSettings& port) : settings(port) {}
+    Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+      return read_frame(frame, settings, receiver);
+    }
+    PortSettings settings;
+  };
+  return std::make_unique<Stateless>(settings);
 }
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
-    {Protocol::tcm2, {make_tcm2, start_tcm2}},
-    {Protocol::imu_card, {make_imu_card}},
-    {Protocol::oncore, {make_configured<OncoreReceiver>, start_oncore}},
-    {Protocol::motor_card, {make_plain<MotorCard>}},
-    {Protocol::nmea, {make_configured<NmeaDevice>}},
-    {Protocol::ubx, {make_configured<UbxReceiver>, start_ubx}},
-    {Protocol::mip, {make_plain<MipSensor>, start_mip}},
-    {Protocol::vectornav, {make_plain<VectorNavSensor>, start_vectornav}},
-    {Protocol::pni, {make_plain<PniCompass>, start_pni}},
+    {Protocol::tcm2, {stateless<read_tcm2>, start_tcm2}},
+    {Protocol::imu_card, {stateless<read_imu_card>}},
+    {Protocol::oncore, {make_oncore, start_oncore}},
+    {Protocol::motor_card, {stateless<read_motor_card>}},
+    {Protocol::nmea, {make_nmea}},
+    {Protocol::ubx, {make_ubx, start_ubx}},
+    {Protocol::mip, {make_mip, start_mip}},
+    {Protocol::vectornav, {stateless<read_vectornav>, start_vectornav}},
+    {Protocol::pni, {stateless<read_pni>, start_pni}},
     // Doppler logs of Teledyne ping as soon as they are powered, if they are set up so. To start them from here
     // (CS) would let them ping in air, or begin a deployment with parameters that nobody has seen.
-    {Protocol::pd0, {make_plain<Pd0Log>}},
-    {Protocol::pd6, {make_plain<Pd6Log>}},
-    {Protocol::water_linked, {make_plain<WaterLinkedLog>}},
-    {Protocol::samples, {make_plain<InjectedSamples>}},
-    {Protocol::paroscientific, {make_configured<ParoscientificGauge>, start_paroscientific}},
-    {Protocol::keller, {make_plain<KellerGauge>, start_keller}},
-    {Protocol::described, {make_configured<DescribedDevice>, start_described}},
+    {Protocol::pd0, {make_pd0}},
+    {Protocol::pd6, {make_pd6}},
+    {Protocol::water_linked, {make_water_linked}},
+    {Protocol::samples, {stateless<read_samples>}},
+    {Protocol::paroscientific, {make_paroscientific, start_paroscientific}},
+    {Protocol::keller, {stateless<read_keller>, start_keller}},
+    {Protocol::described, {make_described, start_described}},
 });
 
 }  // namespace

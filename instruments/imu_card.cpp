@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/imu_card.h"
+#include "protocols/imu_card.h"
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "instruments/units.h"
-#include "protocols/imu_card.h"
 
 namespace navcal::instruments {
 
 namespace card = protocols::imu_card;
 
-Instrument::Verdict ImuCard::read(const protocols::Frame& frame, Receiver& receiver) {
+/// Inertial card: 1/16 converter counts (1 count = 1 mV) to rates, specific force and depth by per-unit zeros and
+/// scales (ICD section 3).
+Verdict read_imu_card(const protocols::Frame& frame, const config::PortSettings& settings, Receiver& receiver) {
   const auto record = card::decode_record(frame.bytes);
   if (!record) return Verdict::ignored;
   const auto scaled = [&](std::size_t channel) {
-    return (record->raw[channel] / 16.0 - settings_.zero_mV[channel]) / settings_.scale[channel];
+    return (record->raw[channel] / 16.0 - settings.imu_card.zero_mV[channel]) / settings.imu_card.scale[channel];
   };
   ImuSample sample;
   sample.rate_rad_s = Vector3{scaled(0) * base::kRadiansPerDegree, scaled(2) * base::kRadiansPerDegree,
@@ -28,10 +30,7 @@ Instrument::Verdict ImuCard::read(const protocols::Frame& frame, Receiver& recei
                  .leak_aft = (record->status & card::leak_aft) != 0,
                  .low_supply = (record->status & card::low_supply) != 0};
 
-  Measurement measurement;
-  measurement.value = sample;
-  measurement.sequence = record->sequence;
-  receiver.on_measurement(measurement);
+  receiver.on_measurement({.value = sample, .sequence = record->sequence});
   return Verdict::used;
 }
 

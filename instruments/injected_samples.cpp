@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/injected_samples.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,6 +6,7 @@
 #include <type_traits>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "instruments/sample_fields.h"
 #include "protocols/samples_line.h"
 
@@ -132,7 +131,12 @@ constexpr std::array<std::string_view, 8> kNoMeasurements{"SKY",         "NAV", 
 
 }  // namespace
 
-Instrument::Verdict InjectedSamples::read(const protocols::Frame& frame, Receiver& receiver) {
+/// Samples that another program sends, one JSON object a line (ICD section 13), with the keys of `navcal replay
+/// --json`. A line with the members `time` and `time_std` states when it was valid; without `time` its arrival
+/// counts. A line that is no flat JSON object, names an unknown class, or has a member of a wrong type or out of
+/// range, counts as out of range and gives no sample. Unknown members are ignored, and so are lines of classes
+/// that are no measurements.
+Verdict read_samples(const protocols::Frame& frame, const config::PortSettings&, Receiver& receiver) {
   const auto object = Object::parse(frame.bytes);
   if (!object) return Verdict::out_of_range;
   Fields fields(*object);
@@ -152,11 +156,7 @@ Instrument::Verdict InjectedSamples::read(const protocols::Frame& frame, Receive
   time.std_ns = fields.nanoseconds("time_std");
   if (!fields.all_good()) return Verdict::out_of_range;
   if (!found) return Verdict::ignored;
-  Measurement measurement;
-  measurement.value = *found;
-  measurement.paces = false;
-  measurement.by_sender = time;
-  receiver.on_measurement(measurement);
+  receiver.on_measurement({.value = *found, .paces = false, .by_sender = time});
   return Verdict::used;
 }
 

@@ -23,20 +23,20 @@ struct SenderTime {
 
 /// Content of one frame, or of the epoch that it closes, before it is stamped.
 struct Measurement {
-  Value value;
-  std::optional<std::uint8_t> sequence;  ///< the device's own counter
+  Value value{};
+  std::optional<std::uint8_t> sequence{};  ///< the device's own counter
   /// Time of validity by the device's own clock, whatever its origin. A line between this clock and the arrivals
   /// then gives the time of the sample, also where the sample does not pace.
   std::optional<std::int64_t> device_time_ns{};
-  std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
-  bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
-  bool in_leap_second = false;                ///< stated as second 60
+  std::optional<std::int64_t> stated_utc_ns{};  ///< time that the message itself states (GPS)
+  bool utc_is_known = false;                    ///< stated time is UTC and may serve as a clock
+  bool in_leap_second = false;                  ///< stated as second 60
   /// One tick of the device's clock (not so for satellites in view). What comes after it from the same frame, and
   /// does not pace, is of the same time.
   bool paces = true;
   /// From the measurement to the first byte on the wire, where the device states it; else the port's latency
   /// holds.
-  std::optional<std::int64_t> age_ns;
+  std::optional<std::int64_t> age_ns{};
   std::optional<SenderTime> by_sender{};  ///< of an injected sample
   /// The measurement was sent from the frame on that had the verdict `begins`, not with this frame alone.
   bool of_epoch = false;
@@ -51,10 +51,7 @@ class Receiver {
 
 /// Hands over a value of which nothing else is known. `paces` as in Measurement.
 inline void hand_over(const Value& value, Receiver& receiver, bool paces = true) {
-  Measurement measurement;
-  measurement.value = value;
-  measurement.paces = paces;
-  receiver.on_measurement(measurement);
+  receiver.on_measurement({.value = value, .paces = paces});
 }
 
 /// One device: converts frames to SI units by configuration. Its state is only what spans frames (epochs, leap
@@ -67,6 +64,8 @@ class Instrument {
   virtual ~Instrument() = default;
   virtual Verdict read(const protocols::Frame& frame, Receiver& receiver) = 0;
 };
+
+using Verdict = Instrument::Verdict;
 
 [[nodiscard]] std::unique_ptr<Instrument> make_instrument(const config::PortSettings& settings);
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/keller_gauge.h"
-
 #include <cmath>
 
+#include "instruments/devices.h"
 #include "protocols/keller.h"
 
 namespace navcal::instruments {
 
-Instrument::Verdict KellerGauge::read(const protocols::Frame& frame, Receiver& receiver) {
+/// Keller pressure transmitter (ICD section 15): answers to F73 as pressure. The transmitter must be one that
+/// measures absolute pressure (PAA). Answers do not name their channel: only the pressure channel is ever asked
+/// for.
+Verdict read_keller(const protocols::Frame& frame, const config::PortSettings&, Receiver& receiver) {
   namespace keller = protocols::keller;
   constexpr double kBar_Pa = 1e5;
   const auto reading = keller::decode_reading(frame.bytes);

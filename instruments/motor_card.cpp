@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/motor_card.h"
+#include "protocols/motor_card.h"
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "instruments/units.h"
-#include "protocols/motor_card.h"
 
 namespace navcal::instruments {
 
-Instrument::Verdict MotorCard::read(const protocols::Frame& frame, Receiver& receiver) {
+/// Motor controller: shaft speed, angles of the fin servos, current (ICD section 4).
+Verdict read_motor_card(const protocols::Frame& frame, const config::PortSettings&, Receiver& receiver) {
   if (frame.id != protocols::motor_card::kMcs) return Verdict::ignored;
   const auto status = protocols::motor_card::decode_status(frame.bytes);
   if (!status) return Verdict::out_of_range;
@@ -20,10 +21,7 @@ Instrument::Verdict MotorCard::read(const protocols::Frame& frame, Receiver& rec
   sample.current_A = status->current_A;
   sample.sequence = status->sequence;
 
-  Measurement measurement;
-  measurement.value = sample;
-  measurement.sequence = status->sequence;
-  receiver.on_measurement(measurement);
+  receiver.on_measurement({.value = sample, .sequence = status->sequence});
   return Verdict::used;
 }
 

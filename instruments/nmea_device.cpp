@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/nmea_device.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <string_view>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
+#include "instruments/nmea_epoch.h"
+#include "instruments/nmea_sky.h"
 #include "instruments/units.h"
 #include "protocols/nmea_attitude.h"
 
@@ -14,7 +15,6 @@ namespace navcal::instruments {
 namespace {
 
 namespace nmea = protocols::nmea;
-using Verdict = Instrument::Verdict;
 
 Verdict give(const Value& value, bool paces, Receiver& receiver) {
   hand_over(value, receiver, paces);
@@ -22,13 +22,11 @@ Verdict give(const Value& value, bool paces, Receiver& receiver) {
 }
 
 void give_epoch(const GpsSample& sample, bool began_before, bool in_leap_second, Receiver& receiver) {
-  Measurement measurement;
-  measurement.in_leap_second = in_leap_second;
-  measurement.of_epoch = began_before;
-  measurement.value = sample;
-  measurement.stated_utc_ns = sample.time_utc_ns;
-  measurement.utc_is_known = sample.time_utc_ns.has_value() && sample.fix != Fix::none;
-  receiver.on_measurement(measurement);
+  receiver.on_measurement({.value = sample,
+                           .stated_utc_ns = sample.time_utc_ns,
+                           .utc_is_known = sample.time_utc_ns.has_value() && sample.fix != Fix::none,
+                           .in_leap_second = in_leap_second,
+                           .of_epoch = began_before});
 }
 
 std::optional<double> radians(const std::optional<nmea::Decimal>& angle_deg) {
@@ -113,71 +111,85 @@ Verdict read_depth(const nmea::Sentence& sentence, nmea::Type type, Receiver& re
   return give(AltimeterSample{*depth->depth_m, {}}, true, receiver);
 }
 
+/// Any NMEA 0183 device: position receivers (one sample an epoch), compasses (one sample a sentence), echo
+/// sounders.
+class NmeaDevice final : public Instrument {
+ public:
+  explicit NmeaDevice(const config::PortSettings& settings) : compass_(settings.compass), epoch_(settings.gps) {}
+
+  Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+    const auto type = nmea::type_of(frame.id);
+    if (type == nmea::Type::other) return Verdict::ignored;
+    const nmea::Sentence sentence(frame.bytes);
+    switch (type) {
+      case nmea::Type::hdt:
+      case nmea::Type::hdm:
+      case nmea::Type::hdg:
+      case nmea::Type::ths: return read_heading(sentence, type, receiver);
+      case nmea::Type::ptnthtm: return read_ptnthtm(sentence, receiver);
+      case nmea::Type::attitude: return read_attitude(sentence, receiver);
+      case nmea::Type::rot: return read_rot(sentence, receiver);
+      case nmea::Type::xdr: return read_xdr(sentence, receiver);
+      case nmea::Type::dbt:
+      case nmea::Type::dpt: return read_depth(sentence, type, receiver);
+      case nmea::Type::gsv: {
+        const auto gsv = nmea::decode_gsv(sentence);
+        if (!gsv) return Verdict::out_of_range;
+        const auto sky = sky_.add(sentence.address(), *gsv);
+        return sky ? give(*sky, false, receiver) : Verdict::used;
+      }
+      default: return read_position(sentence, type, receiver);
+    }
+  }
+
+ private:
+  Verdict read_position(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) {
+    if (type == nmea::Type::gsa) {
+      if (const auto gsa = nmea::decode_gsa(sentence)) sky_.add_used(*gsa);
+    }
+    const auto outcome = epoch_.add(sentence, type);
+    if (!outcome.in_range) return Verdict::out_of_range;
+    if (outcome.closed) give_epoch(*outcome.closed, true, false, receiver);
+    if (outcome.sample) give_epoch(*outcome.sample, !outcome.begins, outcome.in_leap_second, receiver);
+    return outcome.begins ? Verdict::begins : Verdict::used;
+  }
+
+  Verdict read_heading(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) const {
+    const auto heading = nmea::decode_heading(sentence, type);
+    if (!heading) return Verdict::out_of_range;
+    if (!heading->heading_deg || heading->mode == 'V') return Verdict::ignored;
+    CompassSample sample;
+    // The variation of HDG is left alone: which one holds is known here (docs/navigation.md).
+    const double deviation_deg = heading->deviation_deg ? heading->deviation_deg->value() : 0;
+    sample.heading_rad =
+        base::positive_angle((heading->heading_deg->value() + deviation_deg) * base::kRadiansPerDegree);
+    sample.heading_is_true = heading->is_true;
+    return give(sample, true, receiver);
+  }
+
+  Verdict read_ptnthtm(const nmea::Sentence& sentence, Receiver& receiver) const {
+    const auto tnt = nmea::decode_ptnthtm(sentence);
+    if (!tnt) return Verdict::out_of_range;
+    const auto angle = [](const std::optional<protocols::nmea::Decimal>& value, config::AngleUnit unit) {
+      return value ? std::optional(radians_of(value->value(), unit)) : std::nullopt;
+    };
+    CompassSample sample;
+    sample.heading_rad = angle(tnt->heading, compass_.heading_unit);
+    sample.pitch_rad = angle(tnt->pitch, compass_.tilt_unit);
+    sample.roll_rad = angle(tnt->roll, compass_.tilt_unit);
+    sample.dip_rad = angle(tnt->dip, compass_.tilt_unit);
+    return give(sample, true, receiver);
+  }
+
+  config::CompassSettings compass_;
+  NmeaEpoch epoch_;
+  NmeaSky sky_;
+};
+
 }  // namespace
 
-NmeaDevice::NmeaDevice(const config::PortSettings& settings) : compass_(settings.compass), epoch_(settings.gps) {}
-
-Verdict NmeaDevice::read(const protocols::Frame& frame, Receiver& receiver) {
-  const auto type = nmea::type_of(frame.id);
-  if (type == nmea::Type::other) return Verdict::ignored;
-  const nmea::Sentence sentence(frame.bytes);
-  switch (type) {
-    case nmea::Type::hdt:
-    case nmea::Type::hdm:
-    case nmea::Type::hdg:
-    case nmea::Type::ths: return read_heading(sentence, type, receiver);
-    case nmea::Type::ptnthtm: return read_ptnthtm(sentence, receiver);
-    case nmea::Type::attitude: return read_attitude(sentence, receiver);
-    case nmea::Type::rot: return read_rot(sentence, receiver);
-    case nmea::Type::xdr: return read_xdr(sentence, receiver);
-    case nmea::Type::dbt:
-    case nmea::Type::dpt: return read_depth(sentence, type, receiver);
-    case nmea::Type::gsv: {
-      const auto gsv = nmea::decode_gsv(sentence);
-      if (!gsv) return Verdict::out_of_range;
-      const auto sky = sky_.add(sentence.address(), *gsv);
-      return sky ? give(*sky, false, receiver) : Verdict::used;
-    }
-    default: return read_position(sentence, type, receiver);
-  }
-}
-
-Verdict NmeaDevice::read_position(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) {
-  if (type == nmea::Type::gsa) {
-    if (const auto gsa = nmea::decode_gsa(sentence)) sky_.add_used(*gsa);
-  }
-  const auto outcome = epoch_.add(sentence, type);
-  if (!outcome.in_range) return Verdict::out_of_range;
-  if (outcome.closed) give_epoch(*outcome.closed, true, false, receiver);
-  if (outcome.sample) give_epoch(*outcome.sample, !outcome.begins, outcome.in_leap_second, receiver);
-  return outcome.begins ? Verdict::begins : Verdict::used;
-}
-
-Verdict NmeaDevice::read_heading(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) const {
-  const auto heading = nmea::decode_heading(sentence, type);
-  if (!heading) return Verdict::out_of_range;
-  if (!heading->heading_deg || heading->mode == 'V') return Verdict::ignored;
-  CompassSample sample;
-  // The variation of HDG is left alone: which one holds is known here (docs/navigation.md).
-  const double deviation_deg = heading->deviation_deg ? heading->deviation_deg->value() : 0;
-  sample.heading_rad =
-      base::positive_angle((heading->heading_deg->value() + deviation_deg) * base::kRadiansPerDegree);
-  sample.heading_is_true = heading->is_true;
-  return give(sample, true, receiver);
-}
-
-Verdict NmeaDevice::read_ptnthtm(const nmea::Sentence& sentence, Receiver& receiver) const {
-  const auto tnt = nmea::decode_ptnthtm(sentence);
-  if (!tnt) return Verdict::out_of_range;
-  const auto angle = [](const std::optional<protocols::nmea::Decimal>& value, config::AngleUnit unit) {
-    return value ? std::optional(radians_of(value->value(), unit)) : std::nullopt;
-  };
-  CompassSample sample;
-  sample.heading_rad = angle(tnt->heading, compass_.heading_unit);
-  sample.pitch_rad = angle(tnt->pitch, compass_.tilt_unit);
-  sample.roll_rad = angle(tnt->roll, compass_.tilt_unit);
-  sample.dip_rad = angle(tnt->dip, compass_.tilt_unit);
-  return give(sample, true, receiver);
+std::unique_ptr<Instrument> make_nmea(const config::PortSettings& settings) {
+  return std::make_unique<NmeaDevice>(settings);
 }
 
 }  // namespace navcal::instruments

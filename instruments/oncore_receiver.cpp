@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/oncore_receiver.h"
-
 #include <algorithm>
+#include <array>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "instruments/units.h"
 #include "protocols/oncore.h"
+#include "protocols/oncore_messages.h"
+#include "protocols/oncore_position.h"
 
 namespace navcal::instruments {
 namespace {
@@ -18,83 +20,97 @@ bool has_position(Fix fix) {
   return fix == Fix::fix_2d || fix == Fix::fix_3d || fix == Fix::propagated || fix == Fix::hold;
 }
 
+/// Motorola Oncore: positions, satellites in view, leap seconds. A receiver set to NMEA is read as NMEA.
+class OncoreReceiver final : public Instrument {
+ public:
+  explicit OncoreReceiver(const config::PortSettings& settings)
+      : settings_(settings.gps),
+        pivot_(protocols::parse_iso_date(settings.gps.rollover_pivot).value_or(protocols::kRolloverPivot)),
+        nmea_(make_nmea(settings)) {}
+
+  Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+    if (!frame.bytes.empty() && frame.bytes[0] != '@') return nmea_->read(frame, receiver);
+    if (frame.id == oncore::kBb) {
+      const auto visible = oncore::decode_bb(frame.bytes);
+      if (!visible || !visible->in_range) return Verdict::out_of_range;
+      read_visible(*visible, receiver);
+      return Verdict::used;
+    }
+    if (frame.id == oncore::kBo) {
+      if (const auto utc = oncore::decode_bo(frame.bytes)) leap_known_ = utc->offset_s.has_value();
+      return Verdict::used;
+    }
+    const auto position = oncore::decode_position(frame.bytes);
+    if (!position) return Verdict::ignored;
+    return position->in_range ? read_position(*position, receiver) : Verdict::out_of_range;
+  }
+
+ private:
+  Verdict read_position(const oncore::Position& position, Receiver& receiver) {
+    channels_ = position.channels;
+    if (position.utc) leap_known_ = position.utc->enabled && position.utc->decoded;
+    const auto date = protocols::correct_rollover(position.date, pivot_);
+
+    GpsSample sample;
+    sample.time_utc_ns = protocols::unix_ns(date.date, position.time);
+    sample.time_corrected = date.corrected;
+    sample.leap_known = leap_known_;
+    sample.fix = position.fix;
+    sample.visible = position.visible;
+    sample.tracked = position.tracked;
+    if (has_position(position.fix)) {
+      sample.latitude_rad = position.filtered.latitude_deg * base::kRadiansPerDegree;
+      sample.longitude_rad = position.filtered.longitude_deg * base::kRadiansPerDegree;
+      sample.height_m = position.filtered.height_m;
+      // Many receivers have no geoid and send exactly 0 (ICD section 2): that is no height.
+      if (position.filtered.height_msl_m != 0) sample.height_msl_m = position.filtered.height_msl_m;
+    }
+    if (position.fix == Fix::fix_2d || position.fix == Fix::fix_3d || position.fix == Fix::propagated) {
+      sample.speed_m_s = position.speed_m_s;
+      if (position.speed_m_s >= settings_.course_gate_m_s)
+        sample.course_rad = position.heading_deg * base::kRadiansPerDegree;
+      sample.dop = position.dop;
+    }
+
+    receiver.on_measurement(
+        {.value = sample,
+         .stated_utc_ns = sample.time_utc_ns,
+         .utc_is_known = leap_known_ && has_position(position.fix) && !protocols::is_start_of_count(position.date),
+         .in_leap_second = position.time.second == 60});
+    return Verdict::used;
+  }
+
+  void read_visible(const oncore::VisibleSatellites& visible, Receiver& receiver) const {
+    SkySample sky;
+    for (std::size_t i = 0; i < visible.count; ++i) {
+      const auto& seen = visible.satellites[i];
+      auto& satellite = sky.satellites[sky.count++];
+      satellite.prn = seen.number;
+      satellite.elevation_deg = seen.elevation_deg;
+      satellite.azimuth_deg = seen.azimuth_deg;
+      const auto channel = std::find_if(channels_.begin(), channels_.end(), [&](const oncore::Channel& c) {
+        return c.satellite != 0 && c.satellite == seen.number;
+      });
+      if (channel != channels_.end()) {
+        satellite.cn0_dBHz = channel->cn0;
+        satellite.used = channel->mode == kUsedForPosition;
+      }
+    }
+    hand_over(sky, receiver, false);
+  }
+
+  config::GpsSettings settings_;
+  protocols::Date pivot_;
+  bool leap_known_ = false;
+  std::array<protocols::oncore::Channel, 12>
+      channels_{};  ///< of the newest position: strengths for the satellites
+  std::unique_ptr<Instrument> nmea_;
+};
+
 }  // namespace
 
-OncoreReceiver::OncoreReceiver(const config::PortSettings& settings)
-    : settings_(settings.gps),
-      pivot_(protocols::parse_iso_date(settings.gps.rollover_pivot).value_or(protocols::kRolloverPivot)),
-      nmea_(settings) {}
-
-Instrument::Verdict OncoreReceiver::read(const protocols::Frame& frame, Receiver& receiver) {
-  if (!frame.bytes.empty() && frame.bytes[0] != '@') return nmea_.read(frame, receiver);
-  if (frame.id == oncore::kBb) {
-    const auto visible = oncore::decode_bb(frame.bytes);
-    if (!visible || !visible->in_range) return Verdict::out_of_range;
-    read_visible(*visible, receiver);
-    return Verdict::used;
-  }
-  if (frame.id == oncore::kBo) {
-    if (const auto utc = oncore::decode_bo(frame.bytes)) leap_known_ = utc->offset_s.has_value();
-    return Verdict::used;
-  }
-  const auto position = oncore::decode_position(frame.bytes);
-  if (!position) return Verdict::ignored;
-  return position->in_range ? read_position(*position, receiver) : Verdict::out_of_range;
-}
-
-Instrument::Verdict OncoreReceiver::read_position(const oncore::Position& position, Receiver& receiver) {
-  channels_ = position.channels;
-  if (position.utc) leap_known_ = position.utc->enabled && position.utc->decoded;
-  const auto date = protocols::correct_rollover(position.date, pivot_);
-
-  GpsSample sample;
-  sample.time_utc_ns = protocols::unix_ns(date.date, position.time);
-  sample.time_corrected = date.corrected;
-  sample.leap_known = leap_known_;
-  sample.fix = position.fix;
-  sample.visible = position.visible;
-  sample.tracked = position.tracked;
-  if (has_position(position.fix)) {
-    sample.latitude_rad = position.filtered.latitude_deg * base::kRadiansPerDegree;
-    sample.longitude_rad = position.filtered.longitude_deg * base::kRadiansPerDegree;
-    sample.height_m = position.filtered.height_m;
-    // Many receivers have no geoid and send exactly 0 (ICD section 2): that is no height.
-    if (position.filtered.height_msl_m != 0) sample.height_msl_m = position.filtered.height_msl_m;
-  }
-  if (position.fix == Fix::fix_2d || position.fix == Fix::fix_3d || position.fix == Fix::propagated) {
-    sample.speed_m_s = position.speed_m_s;
-    if (position.speed_m_s >= settings_.course_gate_m_s)
-      sample.course_rad = position.heading_deg * base::kRadiansPerDegree;
-    sample.dop = position.dop;
-  }
-
-  Measurement measurement;
-  measurement.value = sample;
-  measurement.stated_utc_ns = sample.time_utc_ns;
-  measurement.in_leap_second = position.time.second == 60;
-  measurement.utc_is_known =
-      leap_known_ && has_position(position.fix) && !protocols::is_start_of_count(position.date);
-  receiver.on_measurement(measurement);
-  return Verdict::used;
-}
-
-void OncoreReceiver::read_visible(const oncore::VisibleSatellites& visible, Receiver& receiver) const {
-  SkySample sky;
-  for (std::size_t i = 0; i < visible.count; ++i) {
-    const auto& seen = visible.satellites[i];
-    auto& satellite = sky.satellites[sky.count++];
-    satellite.prn = seen.number;
-    satellite.elevation_deg = seen.elevation_deg;
-    satellite.azimuth_deg = seen.azimuth_deg;
-    const auto channel = std::find_if(channels_.begin(), channels_.end(), [&](const oncore::Channel& c) {
-      return c.satellite != 0 && c.satellite == seen.number;
-    });
-    if (channel != channels_.end()) {
-      satellite.cn0_dBHz = channel->cn0;
-      satellite.used = channel->mode == kUsedForPosition;
-    }
-  }
-  hand_over(sky, receiver, false);
+std::unique_ptr<Instrument> make_oncore(const config::PortSettings& settings) {
+  return std::make_unique<OncoreReceiver>(settings);
 }
 
 }  // namespace navcal::instruments

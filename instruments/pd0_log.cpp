@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/pd0_log.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "instruments/doppler_limits.h"
+#include "instruments/error_velocity.h"
 #include "instruments/janus.h"
+#include "protocols/pd0.h"
 
 namespace navcal::instruments {
 namespace {
@@ -102,47 +103,58 @@ void read_pressure(const pd0::Ensemble& ensemble, Receiver& receiver) {
   hand_over(sample, receiver, false);
 }
 
+/// Teledyne Doppler log, PD0 (ICD section 8): bottom track in any of its four axes, altitude, and what its own
+/// sensors measure of attitude and pressure. Axes of the vehicle are those of the mounted instrument, with its own
+/// heading alignment; [port.NAME.mounting] turns further.
+class Pd0Log final : public Instrument {
+ public:
+  Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+    const pd0::Ensemble ensemble = pd0::decode(frame.bytes);
+    if (!ensemble.fixed || !ensemble.variable) return Verdict::ignored;
+    bool can_be = read_attitude(ensemble, receiver);
+    read_pressure(ensemble, receiver);
+    if (!ensemble.bottom) return can_be ? Verdict::used : Verdict::out_of_range;
+
+    const Pd0Posture posture = posture_of(*ensemble.fixed, *ensemble.variable);
+    DvlSample sample;
+    if (posture.axes == pd0::Axes::earth) sample.frame = VelocityFrame::earth;
+    if (const auto bottom = vehicle_velocity(ensemble.bottom->velocity_m_s, posture)) {
+      sample.bottom_velocity_m_s = bottom->velocity_m_s;
+      sample.bottom_velocity_std_m_s = error_m_s(bottom->error_m_s, bottom_error_);
+    }
+    const auto& good = ensemble.bottom->water_percent_good;
+    const bool has_water = std::any_of(good.begin(), good.end(), [](std::uint8_t percent) { return percent > 0; });
+    if (const auto water = vehicle_velocity(ensemble.bottom->water_velocity_m_s, posture); water && has_water) {
+      sample.water_velocity_m_s = water->velocity_m_s;
+      sample.water_velocity_std_m_s = error_m_s(water->error_m_s, water_error_);
+    }
+    if (posture.has_beam_angle) {
+      sample.altitude_m =
+          altitude_of_beams(ensemble.bottom->range_m, posture.head, posture.pitch_rad, posture.roll_rad);
+    }
+    sample.temperature_C = ensemble.variable->temperature_C;
+    sample.sound_speed_m_s = ensemble.variable->speed_of_sound_m_s;
+    can_be = clear_of_impossible(sample) && can_be;
+
+    hand_over(sample, receiver);
+    return can_be ? Verdict::used : Verdict::out_of_range;
+  }
+
+ private:
+  [[nodiscard]] std::optional<double> error_m_s(const std::optional<double>& error_velocity_m_s,
+                                                ErrorVelocity& history) const {
+    if (error_velocity_m_s) history.take(*error_velocity_m_s);
+    const auto std_m_s = history.std_m_s();
+    if (!std_m_s || error_velocity_m_s) return std_m_s;
+    // Three beams: the horizontal component along the missing beam has three times the variance.
+    return std::numbers::sqrt3 * *std_m_s;
+  }
+
+  ErrorVelocity bottom_error_, water_error_;
+};
+
 }  // namespace
 
-std::optional<double> Pd0Log::error_m_s(const std::optional<double>& error_velocity_m_s,
-                                        ErrorVelocity& history) const {
-  if (error_velocity_m_s) history.take(*error_velocity_m_s);
-  const auto std_m_s = history.std_m_s();
-  if (!std_m_s || error_velocity_m_s) return std_m_s;
-  // Three beams: the horizontal component along the missing beam has three times the variance.
-  return std::numbers::sqrt3 * *std_m_s;
-}
-
-Instrument::Verdict Pd0Log::read(const protocols::Frame& frame, Receiver& receiver) {
-  const pd0::Ensemble ensemble = pd0::decode(frame.bytes);
-  if (!ensemble.fixed || !ensemble.variable) return Verdict::ignored;
-  bool can_be = read_attitude(ensemble, receiver);
-  read_pressure(ensemble, receiver);
-  if (!ensemble.bottom) return can_be ? Verdict::used : Verdict::out_of_range;
-
-  const Pd0Posture posture = posture_of(*ensemble.fixed, *ensemble.variable);
-  DvlSample sample;
-  if (posture.axes == pd0::Axes::earth) sample.frame = VelocityFrame::earth;
-  if (const auto bottom = vehicle_velocity(ensemble.bottom->velocity_m_s, posture)) {
-    sample.bottom_velocity_m_s = bottom->velocity_m_s;
-    sample.bottom_velocity_std_m_s = error_m_s(bottom->error_m_s, bottom_error_);
-  }
-  const auto& good = ensemble.bottom->water_percent_good;
-  const bool has_water = std::any_of(good.begin(), good.end(), [](std::uint8_t percent) { return percent > 0; });
-  if (const auto water = vehicle_velocity(ensemble.bottom->water_velocity_m_s, posture); water && has_water) {
-    sample.water_velocity_m_s = water->velocity_m_s;
-    sample.water_velocity_std_m_s = error_m_s(water->error_m_s, water_error_);
-  }
-  if (posture.has_beam_angle) {
-    sample.altitude_m =
-        altitude_of_beams(ensemble.bottom->range_m, posture.head, posture.pitch_rad, posture.roll_rad);
-  }
-  sample.temperature_C = ensemble.variable->temperature_C;
-  sample.sound_speed_m_s = ensemble.variable->speed_of_sound_m_s;
-  can_be = clear_of_impossible(sample) && can_be;
-
-  hand_over(sample, receiver);
-  return can_be ? Verdict::used : Verdict::out_of_range;
-}
+std::unique_ptr<Instrument> make_pd0(const config::PortSettings&) { return std::make_unique<Pd0Log>(); }
 
 }  // namespace navcal::instruments

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/pni_compass.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "protocols/tcm2_word.h"
 #include "protocols/trax.h"
 
@@ -54,7 +53,10 @@ std::optional<Vector3> specific_force(const Vector3& acceleration_m_s2, const Co
 
 }  // namespace
 
-Instrument::Verdict PniCompass::read(const protocols::Frame& frame, Receiver& receiver) {
+/// PNI TRAX, TCM3 and Prime (ICD section 11): heading, tilt, field and temperature as CompassSample, acceleration
+/// as ImuSample of the same time. The heading is taken for magnetic, as the start-up dialogue sets it. Distortion
+/// is a remark, as the TCM2's E001. The device's heading status is not used: no source at hand says what it means.
+Verdict read_pni(const protocols::Frame& frame, const config::PortSettings&, Receiver& receiver) {
   if (frame.id != trax::id_of(static_cast<std::uint8_t>(trax::FrameNumber::data))) return Verdict::ignored;
   const auto data = trax::decode_data(frame.bytes);
   if (!data || !is_possible_data(*data)) return Verdict::out_of_range;
@@ -62,7 +64,6 @@ Instrument::Verdict PniCompass::read(const protocols::Frame& frame, Receiver& re
     if (!degrees) return std::nullopt;
     return *degrees * base::kRadiansPerDegree;
   };
-  Measurement measurement;
   CompassSample compass;
   if (data->heading_deg) compass.heading_rad = base::as_heading(*data->heading_deg * base::kRadiansPerDegree);
   compass.pitch_rad = radians(data->pitch_deg);
@@ -73,16 +74,13 @@ Instrument::Verdict PniCompass::read(const protocols::Frame& frame, Receiver& re
   if (!compass.heading_rad && !compass.field_body_uT && !compass.pitch_rad && !compass.roll_rad) {
     return Verdict::ignored;
   }
-  measurement.value = compass;
-  receiver.on_measurement(measurement);
+  hand_over(compass, receiver);
   const auto acceleration_m_s2 = vector_of_axes(data->acceleration_m_s2);
   if (!acceleration_m_s2) return Verdict::used;
   if (const auto force_m_s2 = specific_force(*acceleration_m_s2, compass)) {
     ImuSample imu;
     imu.specific_force_m_s2 = force_m_s2;
-    measurement.value = imu;
-    measurement.paces = false;
-    receiver.on_measurement(measurement);
+    hand_over(imu, receiver, false);
   }
   return Verdict::used;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 
 namespace navcal::instruments {
 namespace {

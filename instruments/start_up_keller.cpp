@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "protocols/keller.h"
 
 namespace navcal::instruments {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "protocols/mip.h"
 #include "protocols/mip_commands.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_command.h"
 

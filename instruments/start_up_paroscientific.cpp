@@ -2,7 +2,7 @@
 #include <string>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "protocols/decimal.h"
 #include "protocols/paroscientific.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "protocols/trax.h"
 
 namespace navcal::instruments {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "instruments/tcm2_dialogue.h"
 #include "protocols/tcm2.h"
 #include "protocols/tcm2_commands.h"

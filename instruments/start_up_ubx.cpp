@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "protocols/ubx_configuration.h"
 #include "protocols/ubx_receiver.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/start_ups.h"
+#include "instruments/devices.h"
 #include "protocols/vectornav_lines.h"
 
 namespace navcal::instruments {

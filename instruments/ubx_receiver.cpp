@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/ubx_receiver.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
+#include "protocols/ubx_navigation.h"
 
 namespace navcal::instruments {
 namespace {
@@ -76,7 +77,7 @@ std::optional<double> usable_rad(double angle_deg, double accuracy_deg) {
   return angle_deg * base::kRadiansPerDegree;
 }
 
-Instrument::Verdict read_attitude(const ubx::NavAttitude& attitude, Receiver& receiver) {
+Verdict read_attitude(const ubx::NavAttitude& attitude, Receiver& receiver) {
   const auto& errors_deg = attitude.accuracies_deg;
   const auto angle = [&](std::size_t i) { return usable_rad(attitude.angles_deg[i], errors_deg[i]); };
   CompassSample sample;
@@ -90,12 +91,12 @@ Instrument::Verdict read_attitude(const ubx::NavAttitude& attitude, Receiver& re
     sample.heading_is_true = true;
     sample.heading_std_rad = errors_deg[2] * base::kRadiansPerDegree;
   }
-  if (!sample.heading_rad && !sample.tilt_std_rad) return Instrument::Verdict::ignored;
+  if (!sample.heading_rad && !sample.tilt_std_rad) return Verdict::ignored;
   hand_over(sample, receiver, false);
-  return Instrument::Verdict::used;
+  return Verdict::used;
 }
 
-Instrument::Verdict read_relative(const ubx::RelativePosition& relative, Receiver& receiver) {
+Verdict read_relative(const ubx::RelativePosition& relative, Receiver& receiver) {
   constexpr const char* kNames[] = {"relative north", "relative east", "relative down"};
   for (std::size_t i = 0; i < 3 && relative.position_valid; ++i) {
     hand_over(
@@ -103,7 +104,7 @@ Instrument::Verdict read_relative(const ubx::RelativePosition& relative, Receive
         receiver, false);
   }
   const auto verdict = read_attitude(relative.line, receiver);
-  return relative.position_valid ? Instrument::Verdict::used : verdict;
+  return relative.position_valid ? Verdict::used : verdict;
 }
 
 /// Passes on position and satellites of NMEA sentences, or only looks at their times.
@@ -121,101 +122,122 @@ class NmeaGate : public Receiver {
   bool open_;
 };
 
+/// u-blox receiver: one sample for each NAV-PVT, satellites in view from NAV-SAT; attitude from NAV-ATT, HNR-ATT
+/// and the line between two antennas (NAV-RELPOSNED); propagated positions from HNR-PVT. NMEA on the same port is
+/// read only while no NAV-PVT comes: once its sentences state times kNmeaPatience_ns apart without one between
+/// them.
+class UbxReceiver final : public Instrument {
+ public:
+  static constexpr std::int64_t kNmeaPatience_ns = 3'000'000'000;
+  /// A receiver whose own estimate of its time error is larger than this does not set our clock.
+  static constexpr double kTimeAccuracy_s = 1e-3;
+
+  explicit UbxReceiver(const config::PortSettings& settings)
+      : course_gate_m_s_(settings.gps.course_gate_m_s), nmea_(make_nmea(settings)) {}
+
+  Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+    if (ubx::kind_of(frame) == ubx::Kind::nmea) return read_nmea(frame, receiver);
+    switch (ubx::code_of(frame).value_or(0)) {
+      case ubx::kNavPvt: {
+        const auto pvt = ubx::decode_nav_pvt(frame.bytes);
+        return pvt ? read_pvt(*pvt, true, receiver) : Verdict::out_of_range;
+      }
+      case ubx::kNavTimeGps: {
+        const auto time = ubx::decode_nav_timegps(frame.bytes);
+        if (!time) return Verdict::out_of_range;
+        leap_valid_ = time->leap_valid;
+        return Verdict::used;
+      }
+      case ubx::kNavDop:
+        dop_ = ubx::decode_nav_dop(frame.bytes);
+        return dop_ ? Verdict::used : Verdict::out_of_range;
+      case ubx::kNavSat: {
+        const auto sat = ubx::decode_nav_sat(frame.bytes);
+        if (!sat) return Verdict::out_of_range;
+        hand_over(sky_of(*sat), receiver, false);
+        return Verdict::used;
+      }
+      case ubx::kNavRelPosNed: {
+        const auto relative = ubx::decode_nav_relposned(frame.bytes);
+        return relative ? read_relative(*relative, receiver) : Verdict::out_of_range;
+      }
+      case ubx::kNavAtt:
+      case ubx::kHnrAtt: {
+        const auto attitude = ubx::decode_attitude(frame.bytes);
+        return attitude ? read_attitude(*attitude, receiver) : Verdict::out_of_range;
+      }
+      case ubx::kHnrPvt: {
+        const auto pvt = ubx::decode_hnr_pvt(frame.bytes);
+        return pvt ? read_pvt(*pvt, false, receiver) : Verdict::out_of_range;
+      }
+      default: return Verdict::ignored;
+    }
+  }
+
+ private:
+  /// A position that inertial sensors carry on between two epochs is no fix: its errors are those of the epochs.
+  Verdict read_pvt(const ubx::NavPvt& pvt, bool is_epoch, Receiver& receiver) {
+    if (is_epoch) {
+      nmea_since_ns_.reset();
+      use_nmea_ = false;
+    }
+    if (!can_be(pvt)) return Verdict::out_of_range;
+    GpsSample sample;
+    sample.time_utc_ns = pvt.utc_ns();
+    sample.leap_known = leap_known(pvt);
+    sample.fix = pvt.fix();
+    if (is_epoch) sample.tracked = pvt.satellites;
+    if (sample.fix != Fix::none) {
+      put_position(pvt, sample);
+      put_velocity(pvt, course_gate_m_s_, sample);
+      if (is_epoch) {
+        sample.dop = sample.fix == Fix::fix_2d && dop_ ? dop_->horizontal : pvt.pdop;
+      } else {
+        sample.fix = Fix::propagated;
+        sample.climb_m_s.reset();
+      }
+    }
+    const bool has_time = sample.fix != Fix::none || (pvt.fix_ok && pvt.fix_type == kTimeOnly);
+    receiver.on_measurement({.value = sample,
+                             .stated_utc_ns = sample.time_utc_ns,
+                             .utc_is_known = is_epoch && sample.time_utc_ns && sample.leap_known && has_time &&
+                                             pvt.time_accuracy_s <= kTimeAccuracy_s,
+                             .in_leap_second = pvt.second == 60,
+                             .paces = is_epoch});
+    return Verdict::used;
+  }
+
+  /// Without the leap seconds a receiver reports GPS time less the offset that its firmware was made with. The
+  /// flag of NAV-PVT is then not set; NAV-TIMEGPS says it more narrowly where it is sent.
+  [[nodiscard]] bool leap_known(const ubx::NavPvt& pvt) const {
+    return pvt.fully_resolved && leap_valid_.value_or(true);
+  }
+
+  Verdict read_nmea(const protocols::Frame& frame, Receiver& receiver) {
+    NmeaGate gate(receiver, use_nmea_);
+    const Verdict verdict = nmea_->read(frame, gate);
+    if (gate.stated_utc_ns) {
+      if (!nmea_since_ns_) nmea_since_ns_ = gate.stated_utc_ns;
+      // Times that go back are those of a receiver that has begun anew.
+      if (*gate.stated_utc_ns < *nmea_since_ns_) nmea_since_ns_ = gate.stated_utc_ns;
+      use_nmea_ = *gate.stated_utc_ns - *nmea_since_ns_ >= kNmeaPatience_ns;
+    }
+    if (use_nmea_ || verdict == Verdict::out_of_range) return verdict;
+    return Verdict::ignored;
+  }
+
+  double course_gate_m_s_;
+  std::optional<bool> leap_valid_;  ///< by the newest NAV-TIMEGPS
+  std::optional<protocols::ubx::NavDop> dop_;
+  std::optional<std::int64_t> nmea_since_ns_;  ///< UTC of the first NMEA time after the newest NAV-PVT
+  bool use_nmea_ = false;
+  std::unique_ptr<Instrument> nmea_;
+};
+
 }  // namespace
 
-UbxReceiver::UbxReceiver(const config::PortSettings& settings)
-    : course_gate_m_s_(settings.gps.course_gate_m_s), nmea_(settings) {}
-
-Instrument::Verdict UbxReceiver::read(const protocols::Frame& frame, Receiver& receiver) {
-  if (ubx::kind_of(frame) == ubx::Kind::nmea) return read_nmea(frame, receiver);
-  switch (ubx::code_of(frame).value_or(0)) {
-    case ubx::kNavPvt: {
-      const auto pvt = ubx::decode_nav_pvt(frame.bytes);
-      return pvt ? read_pvt(*pvt, true, receiver) : Verdict::out_of_range;
-    }
-    case ubx::kNavTimeGps: {
-      const auto time = ubx::decode_nav_timegps(frame.bytes);
-      if (!time) return Verdict::out_of_range;
-      leap_valid_ = time->leap_valid;
-      return Verdict::used;
-    }
-    case ubx::kNavDop:
-      dop_ = ubx::decode_nav_dop(frame.bytes);
-      return dop_ ? Verdict::used : Verdict::out_of_range;
-    case ubx::kNavSat: {
-      const auto sat = ubx::decode_nav_sat(frame.bytes);
-      if (!sat) return Verdict::out_of_range;
-      hand_over(sky_of(*sat), receiver, false);
-      return Verdict::used;
-    }
-    case ubx::kNavRelPosNed: {
-      const auto relative = ubx::decode_nav_relposned(frame.bytes);
-      return relative ? read_relative(*relative, receiver) : Verdict::out_of_range;
-    }
-    case ubx::kNavAtt:
-    case ubx::kHnrAtt: {
-      const auto attitude = ubx::decode_attitude(frame.bytes);
-      return attitude ? read_attitude(*attitude, receiver) : Verdict::out_of_range;
-    }
-    case ubx::kHnrPvt: {
-      const auto pvt = ubx::decode_hnr_pvt(frame.bytes);
-      return pvt ? read_pvt(*pvt, false, receiver) : Verdict::out_of_range;
-    }
-    default: return Verdict::ignored;
-  }
-}
-
-/// Without the leap seconds a receiver reports GPS time less the offset that its firmware was made with. The flag
-/// of NAV-PVT is then not set; NAV-TIMEGPS says it more narrowly where it is sent.
-bool UbxReceiver::leap_known(const ubx::NavPvt& pvt) const {
-  return pvt.fully_resolved && leap_valid_.value_or(true);
-}
-
-/// A position that inertial sensors carry on between two epochs is no fix: its errors are those of the epochs.
-Instrument::Verdict UbxReceiver::read_pvt(const ubx::NavPvt& pvt, bool is_epoch, Receiver& receiver) {
-  if (is_epoch) {
-    nmea_since_ns_.reset();
-    use_nmea_ = false;
-  }
-  if (!can_be(pvt)) return Verdict::out_of_range;
-  GpsSample sample;
-  sample.time_utc_ns = pvt.utc_ns();
-  sample.leap_known = leap_known(pvt);
-  sample.fix = pvt.fix();
-  if (is_epoch) sample.tracked = pvt.satellites;
-  if (sample.fix != Fix::none) {
-    put_position(pvt, sample);
-    put_velocity(pvt, course_gate_m_s_, sample);
-    if (is_epoch) {
-      sample.dop = sample.fix == Fix::fix_2d && dop_ ? dop_->horizontal : pvt.pdop;
-    } else {
-      sample.fix = Fix::propagated;
-      sample.climb_m_s.reset();
-    }
-  }
-  Measurement measurement;
-  measurement.value = sample;
-  measurement.stated_utc_ns = sample.time_utc_ns;
-  measurement.in_leap_second = pvt.second == 60;
-  measurement.paces = is_epoch;
-  const bool has_time = sample.fix != Fix::none || (pvt.fix_ok && pvt.fix_type == kTimeOnly);
-  measurement.utc_is_known =
-      is_epoch && sample.time_utc_ns && sample.leap_known && has_time && pvt.time_accuracy_s <= kTimeAccuracy_s;
-  receiver.on_measurement(measurement);
-  return Verdict::used;
-}
-
-Instrument::Verdict UbxReceiver::read_nmea(const protocols::Frame& frame, Receiver& receiver) {
-  NmeaGate gate(receiver, use_nmea_);
-  const Verdict verdict = nmea_.read(frame, gate);
-  if (gate.stated_utc_ns) {
-    if (!nmea_since_ns_) nmea_since_ns_ = gate.stated_utc_ns;
-    // Times that go back are those of a receiver that has begun anew.
-    if (*gate.stated_utc_ns < *nmea_since_ns_) nmea_since_ns_ = gate.stated_utc_ns;
-    use_nmea_ = *gate.stated_utc_ns - *nmea_since_ns_ >= kNmeaPatience_ns;
-  }
-  if (use_nmea_ || verdict == Verdict::out_of_range) return verdict;
-  return Verdict::ignored;
+std::unique_ptr<Instrument> make_ubx(const config::PortSettings& settings) {
+  return std::make_unique<UbxReceiver>(settings);
 }
 
 }  // namespace navcal::instruments

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/vectornav_sensor.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "protocols/vectornav_lines.h"
 
 namespace navcal::instruments {
@@ -70,26 +69,13 @@ std::optional<CompassSample> compass_of(const vn::Reading& reading) {
   return sample;
 }
 
-}  // namespace
-
-Instrument::Verdict VectorNavSensor::read(const protocols::Frame& frame, Receiver& receiver) {
-  if (frame.id == vn::kBinary) {
-    const auto reading = vn::decode_binary(frame.bytes);
-    return reading ? hand_over(*reading, receiver) : Verdict::ignored;
-  }
-  const auto reading = vn::decode_line(frame.bytes);
-  return reading ? hand_over(*reading, receiver) : Verdict::ignored;
-}
-
-Instrument::Verdict VectorNavSensor::hand_over(const vn::Reading& reading, Receiver& receiver) {
+Verdict hand_over_reading(const vn::Reading& reading, Receiver& receiver) {
   if (!can_be(reading)) return Verdict::out_of_range;
-  Measurement measurement;
-  if (reading.since_startup_ns) measurement.device_time_ns = static_cast<std::int64_t>(*reading.since_startup_ns);
+  std::optional<std::int64_t> device_time_ns;
+  if (reading.since_startup_ns) device_time_ns = static_cast<std::int64_t>(*reading.since_startup_ns);
   bool used = false;
   const auto give = [&](const Value& value) {
-    measurement.value = value;
-    measurement.paces = !used;
-    receiver.on_measurement(measurement);
+    receiver.on_measurement({.value = value, .device_time_ns = device_time_ns, .paces = !used});
     used = true;
   };
   if (const auto imu = imu_of(reading)) give(*imu);
@@ -98,6 +84,20 @@ Instrument::Verdict VectorNavSensor::hand_over(const vn::Reading& reading, Recei
   if (reading.pressure_Pa && used)
     give(ScalarSample{Text<24>("air pressure"), Text<16>("Pa"), *reading.pressure_Pa, std::nullopt});
   return used ? Verdict::used : Verdict::ignored;
+}
+
+}  // namespace
+
+/// VectorNav VN-100, VN-200, VN-300: rates and specific force, attitude and field, and the air pressure inside the
+/// sensor. Compensated values are preferred to uncompensated ones of the same message. Yaw is taken for magnetic,
+/// as it is with the settings of the factory (ICD section 12).
+Verdict read_vectornav(const protocols::Frame& frame, const config::PortSettings&, Receiver& receiver) {
+  if (frame.id == vn::kBinary) {
+    const auto reading = vn::decode_binary(frame.bytes);
+    return reading ? hand_over_reading(*reading, receiver) : Verdict::ignored;
+  }
+  const auto reading = vn::decode_line(frame.bytes);
+  return reading ? hand_over_reading(*reading, receiver) : Verdict::ignored;
 }
 
 }  // namespace navcal::instruments

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/water_linked_log.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
+#include "instruments/devices.h"
 #include "instruments/doppler_limits.h"
 #include "protocols/water_linked.h"
 
@@ -36,42 +35,56 @@ std::optional<double> stated_std_m_s(const water_linked::Velocity& velocity) {
   return std_m_s > 0 ? std::optional(std_m_s) : std::nullopt;
 }
 
+/// Water Linked DVL A50 and A125 (ICD section 10): wrz and wrx as velocities over the bottom with their stated
+/// errors and the altitude. wrz states when the ping was reflected and when the line was sent, by the instrument's
+/// own clock: their difference takes the place of the port's latency. Without bottom lock a sample has neither
+/// velocity nor altitude. The altitude is stated along the instrument's axis; the tilt of its dead reckoning, wrp,
+/// makes it vertical where wrp comes. Its position, in a frame of its own, is three scalars; the single beams wru
+/// are not used. The network port says the same in JSON.
+class WaterLinkedLog final : public Instrument {
+ public:
+  Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+    if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld ||
+        frame.id == water_linked::kVelocityJson)
+      return read_velocity(frame.bytes, receiver);
+    if (frame.id != water_linked::kPosition && frame.id != water_linked::kPositionJson) return Verdict::ignored;
+    const auto reckoning = water_linked::decode_position(frame.bytes);
+    if (!reckoning) return Verdict::out_of_range;
+    tilt_cosine_ = std::cos(reckoning->pitch_deg * base::kRadiansPerDegree) *
+                   std::cos(reckoning->roll_deg * base::kRadiansPerDegree);
+    velocities_since_ = 0;
+    constexpr const char* kNames[] = {"local x", "local y", "local z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      hand_over(ScalarSample{Text<24>(kNames[i]), Text<16>("m"), reckoning->position_m[i], reckoning->std_m},
+                receiver, false);
+    }
+    return Verdict::used;
+  }
+
+ private:
+  Verdict read_velocity(protocols::Bytes line, Receiver& receiver) {
+    const auto velocity = water_linked::decode_velocity(line);
+    if (!velocity) return Verdict::out_of_range;
+    DvlSample sample;
+    if (velocity->valid) {
+      sample.bottom_velocity_m_s = velocity->velocity_m_s;
+      sample.bottom_velocity_std_m_s = stated_std_m_s(*velocity);
+      sample.altitude_m = velocity->altitude_m * tilt_cosine_;
+    }
+    if (++velocities_since_ == kTiltServes) tilt_cosine_ = 1;
+    const bool can_be = clear_of_impossible(sample);
+    receiver.on_measurement({.value = sample, .age_ns = age_ns(*velocity)});
+    return can_be ? Verdict::used : Verdict::out_of_range;
+  }
+
+  double tilt_cosine_ = 1;    ///< of the newest wrp
+  int velocities_since_ = 0;  ///< since then
+};
+
 }  // namespace
 
-Instrument::Verdict WaterLinkedLog::read(const protocols::Frame& frame, Receiver& receiver) {
-  if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld ||
-      frame.id == water_linked::kVelocityJson)
-    return read_velocity(frame.bytes, receiver);
-  if (frame.id != water_linked::kPosition && frame.id != water_linked::kPositionJson) return Verdict::ignored;
-  const auto reckoning = water_linked::decode_position(frame.bytes);
-  if (!reckoning) return Verdict::out_of_range;
-  tilt_cosine_ = std::cos(reckoning->pitch_deg * base::kRadiansPerDegree) *
-                 std::cos(reckoning->roll_deg * base::kRadiansPerDegree);
-  velocities_since_ = 0;
-  constexpr const char* kNames[] = {"local x", "local y", "local z"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    hand_over(ScalarSample{Text<24>(kNames[i]), Text<16>("m"), reckoning->position_m[i], reckoning->std_m},
-              receiver, false);
-  }
-  return Verdict::used;
-}
-
-Instrument::Verdict WaterLinkedLog::read_velocity(protocols::Bytes line, Receiver& receiver) {
-  const auto velocity = water_linked::decode_velocity(line);
-  if (!velocity) return Verdict::out_of_range;
-  DvlSample sample;
-  if (velocity->valid) {
-    sample.bottom_velocity_m_s = velocity->velocity_m_s;
-    sample.bottom_velocity_std_m_s = stated_std_m_s(*velocity);
-    sample.altitude_m = velocity->altitude_m * tilt_cosine_;
-  }
-  if (++velocities_since_ == kTiltServes) tilt_cosine_ = 1;
-  const bool can_be = clear_of_impossible(sample);
-  Measurement measurement;
-  measurement.value = sample;
-  measurement.age_ns = age_ns(*velocity);
-  receiver.on_measurement(measurement);
-  return can_be ? Verdict::used : Verdict::out_of_range;
+std::unique_ptr<Instrument> make_water_linked(const config::PortSettings&) {
+  return std::make_unique<WaterLinkedLog>();
 }
 
 }  // namespace navcal::instruments

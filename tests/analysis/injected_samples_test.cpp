@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lines of `navcal replay --json` may be injected again, and give the same samples.
-#include "instruments/injected_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +15,7 @@ namespace {
 using Verdict = Instrument::Verdict;
 
 Collector collect(std::string_view lines) {
-  static InjectedSamples instrument;
-  Collector collector(instrument);
+  Collector collector(protocols::Protocol::samples);
   collector.feed<protocols::samples_line::Parser>(lines);
   return collector;
 }

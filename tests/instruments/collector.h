@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace navcal::instruments {
 class Collector : public Receiver {
  public:
   explicit Collector(Instrument& instrument) : instrument_(instrument) {}
+  /// Of the instrument that the daemon makes for a port.
+  explicit Collector(const config::PortSettings& settings) : own_(make_instrument(settings)), instrument_(*own_) {}
+  explicit Collector(protocols::Protocol protocol) : Collector(port_with(protocol)) {}
 
   template <class Parser>
   void feed(protocols::Bytes bytes) {
@@ -39,6 +43,13 @@ class Collector : public Receiver {
   std::vector<Instrument::Verdict> verdicts;
 
  private:
+  static config::PortSettings port_with(protocols::Protocol protocol) {
+    config::PortSettings settings;
+    settings.protocol = protocol;
+    return settings;
+  }
+
+  std::unique_ptr<Instrument> own_;
   Instrument& instrument_;
 };
 

@@ -3,9 +3,6 @@
 
 #include <numbers>
 
-#include "instruments/imu_card.h"
-#include "instruments/motor_card.h"
-#include "instruments/tcm2_compass.h"
 #include "protocols/imu_card.h"
 #include "protocols/motor_card.h"
 #include "protocols/tcm2.h"
@@ -24,8 +21,7 @@ TEST(ImuCard, ChannelsBecomeBodyAxesInSi) {
   const auto raw = [](double mV) { return static_cast<std::uint16_t>(mV * 16); };
   // roll 1, yaw A 2, pitch 3, yaw B -2 deg/s; 0.1, 0, -1 g; 2 m deep
   record.raw = {raw(2058), raw(2068), raw(2078), raw(2028), raw(2148), raw(2048), raw(1048), raw(625)};
-  ImuCard card{config::ImuCardSettings{}};
-  Collector collector(card);
+  Collector collector(Protocol::imu_card);
   const auto bytes = imu_card::encode_record(record);
   collector.feed<imu_card::Parser>(Bytes(bytes));
   const auto samples = collector.all<ImuSample>();
@@ -47,11 +43,11 @@ TEST(ImuCard, ChannelsBecomeBodyAxesInSi) {
 }
 
 TEST(ImuCard, ZerosAndScalesAreTheUnitsOwn) {
-  config::ImuCardSettings settings;
-  settings.zero_mV[1] = 2100;
-  settings.scale[1] = 12.5;
-  ImuCard card{settings};
-  Collector collector(card);
+  config::PortSettings settings;
+  settings.protocol = Protocol::imu_card;
+  settings.imu_card.zero_mV[1] = 2100;
+  settings.imu_card.scale[1] = 12.5;
+  Collector collector(settings);
   imu_card::Record record;
   record.raw[1] = 2350 * 16;
   const auto bytes = imu_card::encode_record(record);
@@ -60,8 +56,7 @@ TEST(ImuCard, ZerosAndScalesAreTheUnitsOwn) {
 }
 
 TEST(MotorCard, EmptyFieldsStayUnknown) {
-  MotorCard card;
-  Collector collector(card);
+  Collector collector(Protocol::motor_card);
   collector.feed<motor_card::Parser>(nmea("MCS,5,780,,1.5,-20.0,,0.61"));
   collector.feed<motor_card::Parser>(nmea("MCC,780,0.0,0.0,0.0"));  // what the host sends says nothing measured
   const auto samples = collector.all<MotorSample>();
@@ -75,11 +70,11 @@ TEST(MotorCard, EmptyFieldsStayUnknown) {
 }
 
 TEST(Tcm2Compass, UnitsAreConfigurationNotInTheWord) {
-  config::CompassSettings settings;
-  settings.heading_unit = config::AngleUnit::mils;
-  settings.temperature_unit = config::TemperatureUnit::F;
-  Tcm2Compass compass{settings};
-  Collector collector(compass);
+  config::PortSettings settings;
+  settings.protocol = Protocol::tcm2;
+  settings.compass.heading_unit = config::AngleUnit::mils;
+  settings.compass.temperature_unit = config::TemperatureUnit::F;
+  Collector collector(settings);
   collector.feed<tcm2::Parser>(nmea("C1600.0P10.0R-2.5X55.11Y12.33Z-18.43T50.0"));
   const auto samples = collector.all<CompassSample>();
   ASSERT_EQ(samples.size(), 1U);
@@ -90,8 +85,7 @@ TEST(Tcm2Compass, UnitsAreConfigurationNotInTheWord) {
 }
 
 TEST(Tcm2Compass, TiltOutOfRangeVoidsHeadingAndTiltButNotTheField) {
-  Tcm2Compass compass{config::CompassSettings{}};
-  Collector collector(compass);
+  Collector collector(Protocol::tcm2);
   collector.feed<tcm2::Parser>(nmea("C10.0P70.0R1.0X1.00Y2.00Z3.00E002"));
   collector.feed<tcm2::Parser>(nmea("C10.0P70.0R1.0X1.00Y2.00Z3.00E001"));
   const auto samples = collector.all<CompassSample>();
@@ -104,8 +98,7 @@ TEST(Tcm2Compass, TiltOutOfRangeVoidsHeadingAndTiltButNotTheField) {
 }
 
 TEST(Tcm2Compass, MagnetometerOutOfRangeVoidsHeadingAndFieldButNotTheTilt) {
-  Tcm2Compass compass{config::CompassSettings{}};
-  Collector collector(compass);
+  Collector collector(Protocol::tcm2);
   collector.feed<tcm2::Parser>(nmea("C10.0P7.0R1.0X1.00Y2.00Z3.00E004"));
   collector.feed<tcm2::Parser>(nmea("C10.0P7.0R1.0X1.00Y2.00Z3.00E007"));
   const auto samples = collector.all<CompassSample>();
@@ -117,8 +110,7 @@ TEST(Tcm2Compass, MagnetometerOutOfRangeVoidsHeadingAndFieldButNotTheTilt) {
 }
 
 TEST(Tcm2Compass, FieldsThatAreOffAndNmeaOutput) {
-  Tcm2Compass compass{config::CompassSettings{}};
-  Collector collector(compass);
+  Collector collector(Protocol::tcm2);
   collector.feed<tcm2::Parser>("$C328.3T22.3*2E\r\n:\r\n$HCHDM,182.3,M*21\r\n");
   const auto samples = collector.all<CompassSample>();
   ASSERT_EQ(samples.size(), 2U);

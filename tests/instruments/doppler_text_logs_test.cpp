@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/angles.h"
-#include "instruments/pd6_log.h"
-#include "instruments/water_linked_log.h"
+#include "protocols/pd6.h"
 #include "protocols/water_linked.h"
 #include "tests/instruments/collector.h"
 #include "tests/instruments/velocity.h"
@@ -16,8 +15,7 @@ namespace water_linked = protocols::water_linked;
 using Verdict = Instrument::Verdict;
 
 TEST(Pd6Log, OnePingIsOneSample) {
-  Pd6Log log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::pd6);
   collector.feed<protocols::pd6::Parser>(
       ":SA, -2.00, +4.00,090.00\r\n:TS,26112423595999,35.0,+15.0,0002.5,1500.1,000\r\n"
       ":WI,+00010,+00950,+00003,-00001,A\r\n:WS,+00099,+00099,+00099,A\r\n:WE,-32768,-32768,-32768,V\r\n"
@@ -39,8 +37,7 @@ TEST(Pd6Log, OnePingIsOneSample) {
 }
 
 TEST(Pd6Log, EarthAxesWhereThereAreNoOthers) {
-  Pd6Log log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::pd6);
   collector.feed<protocols::pd6::Parser>(
       ":SA,+00.00,+00.00,000.00\r\n:BI,-32768,-32768,-32768,-32768,V\r\n:BS,+00099,+00099,+00099,A\r\n"
       ":BE,+00300,-00200,+00100,A\r\n:BD,+00000000.00,+00000000.00,+00000000.00,0000.00,000.25\r\n");
@@ -51,8 +48,7 @@ TEST(Pd6Log, EarthAxesWhereThereAreNoOthers) {
 }
 
 TEST(Pd6Log, APingWithoutItsEndIsForgotten) {
-  Pd6Log log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::pd6);
   collector.feed<protocols::pd6::Parser>(
       ":SA,+00.00,+00.00,000.00\r\n:BI,+00012,+00980,+00004,+00002,A\r\n"
       ":SA,+00.00,+00.00,000.00\r\n:BI,+00000,-00500,+00000,+00002,V\r\n"
@@ -63,8 +59,7 @@ TEST(Pd6Log, APingWithoutItsEndIsForgotten) {
 }
 
 TEST(Pd6Log, WhatCannotBeIsCounted) {
-  Pd6Log log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::pd6);
   collector.feed<protocols::pd6::Parser>(
       ":SA,+00.00,+00.00,400.00\r\n:SA,1,2\r\n:BI,1,2,3,A\r\n:BD,1\r\n:TS,1,2\r\n");
   EXPECT_EQ(collector.verdicts, std::vector<Verdict>(5, Verdict::out_of_range));
@@ -80,8 +75,7 @@ TEST(WaterLinkedLog, AVelocityWithItsErrorAndItsAge) {
   velocity.covariance_m2_s2 = std::array<double, 9>{1e-4, 0, 0, 0, 4e-4, 0, 0, 0, 1e-6};
   velocity.valid_at_us = 1'700'000'000'100'000;
   velocity.transmitted_at_us = 1'700'000'000'195'000;
-  WaterLinkedLog log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::water_linked);
   collector.feed<water_linked::Parser>(water_linked::encode(velocity));
   ASSERT_EQ(collector.measurements.size(), 1U);
   const DvlSample sample = collector.all<DvlSample>().front();
@@ -104,8 +98,7 @@ TEST(WaterLinkedLog, AVelocityWithItsErrorAndItsAge) {
 }
 
 TEST(WaterLinkedLog, WithoutLockNothingIsTaken) {
-  WaterLinkedLog log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::water_linked);
   collector.feed<water_linked::Parser>("wrx,1075.51,0.000,0.000,0.000,2.707,-1.00,n,1*04\n");
   ASSERT_EQ(collector.all<DvlSample>().size(), 1U);
   EXPECT_FALSE(collector.all<DvlSample>().front().bottom_velocity_m_s);
@@ -117,8 +110,7 @@ TEST(WaterLinkedLog, ItsOwnTiltMakesTheAltitudeVertical) {
   water_linked::Velocity velocity;
   velocity.valid = true;
   velocity.altitude_m = 10;
-  WaterLinkedLog log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::water_linked);
   const auto velocity_line = water_linked::encode(velocity);
   collector.feed<water_linked::Parser>(velocity_line);
   collector.feed<water_linked::Parser>(water_linked::encode_line("wrp,9.500,1.50,-2.00,0.25,0.50,60.0,0.0,0.0,0"));
@@ -136,8 +128,7 @@ TEST(WaterLinkedLog, ItsOwnTiltMakesTheAltitudeVertical) {
 }
 
 TEST(WaterLinkedLog, TheNetworkPortGivesTheSame) {
-  WaterLinkedLog log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::water_linked);
   collector.feed<water_linked::Parser>(
       R"({"ts":9.5,"x":0.5,"y":0,"z":0,"std":0.1,"roll":60,"pitch":0,"yaw":0,"type":"position_local","status":0})"
       "\r\n"
@@ -160,8 +151,7 @@ TEST(WaterLinkedLog, TheNetworkPortGivesTheSame) {
 }
 
 TEST(WaterLinkedLog, OtherLinesAreIgnoredAndImpossibleOnesCounted) {
-  WaterLinkedLog log;
-  Collector collector(log);
+  Collector collector(protocols::Protocol::water_linked);
   collector.feed<water_linked::Parser>("wrp,49056.809,0.41,0.15,1.23,0.4,53.9,13.0,19.3,0*de\n");
   collector.feed<water_linked::Parser>("wru,0,0.070,1.10,-40,-95*9c\n");
   EXPECT_EQ(collector.verdicts, (std::vector{Verdict::used, Verdict::ignored}));

@@ -7,8 +7,8 @@
 
 #include "config/load.h"
 #include "instruments/start_up.h"
-#include "instruments/ubx_receiver.h"
-#include "instruments/vectornav_sensor.h"
+#include "protocols/ubx.h"
+#include "protocols/vectornav.h"
 #include "sim/instruments/ubx_receiver.h"
 #include "sim/instruments/vectornav.h"
 #include "tests/instruments/collector.h"
@@ -32,9 +32,8 @@ struct Afloat : sim::Motion {
 template <class Parser>
 class Bench {
  public:
-  Bench(sim::Device& device, Instrument& instrument, const config::PortSettings& port, double lost = 0)
-      : device_(device), collector_(instrument), instrument_(instrument), start_up_(make_start_up(port)),
-        lost_(lost) {
+  Bench(sim::Device& device, const config::PortSettings& port, double lost = 0)
+      : device_(device), instrument_(make_instrument(port)), start_up_(make_start_up(port)), lost_(lost) {
     device_.power_on(now_ns_);
     start_up_->begin(now_ns_);
   }
@@ -46,7 +45,7 @@ class Bench {
       for (const sim::Emission& emission : emissions) {
         parser_.feed(emission.bytes, [this](const protocols::Frame& frame) {
           start_up_->on_frame(frame, now_ns_);
-          if (instrument_.read(frame, collector_) == Instrument::Verdict::out_of_range) ++out_of_range;
+          if (instrument_->read(frame, collector_) == Instrument::Verdict::out_of_range) ++out_of_range;
         });
       }
       while (const auto bytes = start_up_->next(now_ns_)) {
@@ -68,8 +67,8 @@ class Bench {
 
  private:
   sim::Device& device_;
-  Collector collector_;
-  Instrument& instrument_;
+  std::unique_ptr<Instrument> instrument_;
+  Collector collector_{*instrument_};
   std::unique_ptr<StartUp> start_up_;
   Parser parser_;
   std::mt19937 random_{7};
@@ -99,8 +98,7 @@ TEST(EmulatedDevices, UbxReceiversOfEveryKindGivePositionsWithTheirErrors) {
       options.port = receiver_port;
       sim::UbxReceiver device(options, motion);
       const auto port = port_at(protocols::Protocol::ubx);
-      UbxReceiver instrument(port);
-      Bench<protocols::ubx::PortParser> bench(device, instrument, port, lost);
+      Bench<protocols::ubx::PortParser> bench(device, port, lost);
       bench.run(120);
       for (int power = 0; power < 2; ++power) {
         EXPECT_TRUE(bench.state().starts_with("running on NAV-PVT")) << bench.state();
@@ -126,8 +124,7 @@ TEST(EmulatedDevices, AReceiverWithoutNavPvtIsReadByItsSentences) {
   options.generation = Generation::six;
   sim::UbxReceiver device(options, motion);
   const auto port = port_at(protocols::Protocol::ubx);
-  UbxReceiver instrument(port);
-  Bench<protocols::ubx::PortParser> bench(device, instrument, port);
+  Bench<protocols::ubx::PortParser> bench(device, port);
   bench.run(60);
   EXPECT_TRUE(bench.state().find("refused: CFG-VALSET for UART1, CFG-MSG for NAV-PVT") != std::string::npos)
       << bench.state();
@@ -155,8 +152,7 @@ TEST(EmulatedDevices, VectorNavSensorsOfEveryKindGiveRatesAndAttitude) {
       options.has_errors = kind.has_errors;
       options.is_bare = kind.is_bare;
       sim::VectorNav device(options, motion);
-      VectorNavSensor instrument;
-      Bench<protocols::vectornav::Parser> bench(device, instrument, port_at(protocols::Protocol::vectornav), lost);
+      Bench<protocols::vectornav::Parser> bench(device, port_at(protocols::Protocol::vectornav), lost);
       bench.run(30);
       for (int power = 0; power < 2; ++power) {
         if (lost == 0) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/mip_sensor.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <numbers>
 
 #include "instruments/frame_clock.h"
+#include "protocols/mip.h"
 #include "tests/instruments/collector.h"
 #include "tests/protocols/shared_capture.h"
 
@@ -37,8 +36,7 @@ const Bytes kReference{0, 0, 0, 0x41, 0xD9, 0x19, 0x3B, 0x40};
 constexpr std::int64_t kReference_ns = 0x41D9193B40;
 
 struct MipReading {
-  MipSensor sensor;
-  Collector collector{sensor};
+  Collector collector{protocols::Protocol::mip};
   void feed(std::uint8_t set, const std::vector<mip::Field>& fields) {
     collector.feed<mip::Parser>(mip::encode_fields(set, fields));
   }

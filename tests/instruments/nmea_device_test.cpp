@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/nmea_device.h"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,6 +6,7 @@
 
 #include "base/angles.h"
 #include "instruments/units.h"
+#include "protocols/nmea.h"
 #include "tests/instruments/collector.h"
 
 namespace navcal::instruments {
@@ -24,9 +23,7 @@ std::string epoch(const std::string& time, bool with_gga = true) {
 
 class NmeaDeviceTest : public testing::Test {
  protected:
-  config::PortSettings settings_;
-  NmeaDevice device_{settings_};
-  Collector collector_{device_};
+  Collector collector_{protocols::Protocol::nmea};
 };
 
 TEST_F(NmeaDeviceTest, OneSampleAnEpochWithAllThatItsSentencesSay) {
@@ -235,8 +232,8 @@ TEST_F(NmeaDeviceTest, EchoSoundersWithoutAnEchoOrWithABadDepthGiveNothing) {
 TEST(NmeaDevice, CountsOfSixteenBitsAreASetUpOfTheDevice) {
   config::PortSettings settings;
   settings.compass.heading_unit = settings.compass.tilt_unit = config::AngleUnit::counts16;
-  NmeaDevice device(settings);
-  Collector collector(device);
+  settings.protocol = protocols::Protocol::nmea;
+  Collector collector(settings);
   collector.feed<Parser>("$PTNTHTM,14223,N,169,N,-43,N,13641,2454*15\r\n");
   const auto samples = collector.all<CompassSample>();
   ASSERT_EQ(samples.size(), 1U);
@@ -249,8 +246,7 @@ TEST(NmeaDevice, ReadsTheRecordedReceivers) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) GTEST_SKIP() << file << " is not there: recordings of others are not part of the source";
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  NmeaDevice device{config::PortSettings{}};
-  Collector collector(device);
+  Collector collector(protocols::Protocol::nmea);
   collector.feed<Parser>(bytes);
   EXPECT_GE(collector.all<GpsSample>().size(), 6U);
   EXPECT_LE(collector.all<GpsSample>().size(), 7U);

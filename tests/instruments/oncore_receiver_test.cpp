@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/oncore_receiver.h"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -38,9 +36,7 @@ class OncoreReceiverTest : public testing::Test {
  protected:
   void feed(const std::vector<std::uint8_t>& bytes) { collector_.feed<protocols::GpsStreamParser>(bytes); }
 
-  config::PortSettings settings_;
-  OncoreReceiver receiver_{settings_};
-  Collector collector_{receiver_};
+  Collector collector_{protocols::Protocol::oncore};
 };
 
 TEST_F(OncoreReceiverTest, PositionInSi) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Doppler logs with PD0, frame by frame: each value is given here as the manual states it, and as navcal must
 // understand it.
-#include "instruments/pd0_log.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/angles.h"
+#include "protocols/pd0.h"
 #include "tests/instruments/collector.h"
 #include "tests/instruments/velocity.h"
 
@@ -36,15 +36,14 @@ pd0::Ensemble ensemble_of(pd0::Axes axes) {
   return ensemble;
 }
 
-Collector read_ensembles(Instrument& log, const std::vector<pd0::Ensemble>& ensembles) {
-  Collector collector(log);
+Collector read_ensembles(const std::vector<pd0::Ensemble>& ensembles) {
+  Collector collector(protocols::Protocol::pd0);
   for (const auto& ensemble : ensembles) collector.feed<pd0::Parser>(pd0::encode(ensemble));
   return collector;
 }
 
 DvlSample only_dvl(const pd0::Ensemble& ensemble) {
-  Pd0Log log;
-  const auto found = read_ensembles(log, {ensemble}).all<DvlSample>();
+  const auto found = read_ensembles({ensemble}).all<DvlSample>();
   EXPECT_EQ(found.size(), 1U);
   return found.empty() ? DvlSample{} : found.front();
 }
@@ -141,7 +140,6 @@ TEST(Pd0Log, WaterVelocityCountsWhereItWasMeasured) {
 }
 
 TEST(Pd0Log, ErrorVelocityBecomesTheStatedError) {
-  Pd0Log log;
   std::vector<pd0::Ensemble> ensembles;
   for (int i = 0; i < 40; ++i) {
     auto ensemble = ensemble_of(pd0::Axes::instrument);
@@ -151,7 +149,7 @@ TEST(Pd0Log, ErrorVelocityBecomesTheStatedError) {
   auto three_beams = ensemble_of(pd0::Axes::instrument);
   three_beams.bottom->velocity_m_s = {0.0, -1.0, 0.0, std::nullopt};
   ensembles.push_back(three_beams);
-  const auto samples = read_ensembles(log, ensembles).all<DvlSample>();
+  const auto samples = read_ensembles(ensembles).all<DvlSample>();
   EXPECT_FALSE(samples.at(3).bottom_velocity_std_m_s);
   EXPECT_NEAR(samples.at(39).bottom_velocity_std_m_s.value(), 0.006, 1e-6);
   EXPECT_NEAR(samples.at(40).bottom_velocity_std_m_s.value(), 0.006 * std::sqrt(3), 1e-6);
@@ -163,8 +161,7 @@ TEST(Pd0Log, OnlyWhatItMeasuresItselfIsAttitudeOrPressure) {
   ensemble.variable->pitch_deg = 5;
   ensemble.variable->roll_deg = -10;
   ensemble.variable->pressure_Pa = 50000;
-  Pd0Log log;
-  const auto own = read_ensembles(log, {ensemble});
+  const auto own = read_ensembles({ensemble});
   ASSERT_EQ(own.all<CompassSample>().size(), 1U);
   const CompassSample compass = own.all<CompassSample>().front();
   EXPECT_NEAR(compass.heading_rad.value(), 91.5 * base::kRadiansPerDegree, 1e-9);
@@ -178,7 +175,7 @@ TEST(Pd0Log, OnlyWhatItMeasuresItselfIsAttitudeOrPressure) {
             1);
 
   ensemble.fixed->fitted_sensors = pd0::temperature_sensor;
-  const auto set_by_host = read_ensembles(log, {ensemble});
+  const auto set_by_host = read_ensembles({ensemble});
   EXPECT_TRUE(set_by_host.all<CompassSample>().empty());
   EXPECT_TRUE(set_by_host.all<DepthSample>().empty());
 
@@ -186,7 +183,7 @@ TEST(Pd0Log, OnlyWhatItMeasuresItselfIsAttitudeOrPressure) {
   ensemble.fixed->heading_bias_deg = 3;
   ensemble.variable->pressure_Pa.reset();
   ensemble.variable->depth_m = 12.3;
-  const auto short_leader = read_ensembles(log, {ensemble});
+  const auto short_leader = read_ensembles({ensemble});
   EXPECT_TRUE(short_leader.all<CompassSample>().front().heading_is_true);
   EXPECT_NEAR(short_leader.all<DepthSample>().front().depth_m.value(), 12.3, 1e-9);
 }
@@ -194,8 +191,7 @@ TEST(Pd0Log, OnlyWhatItMeasuresItselfIsAttitudeOrPressure) {
 TEST(Pd0Log, WhatCannotBeIsCountedAndTheRestIsUsed) {
   auto ensemble = ensemble_of(pd0::Axes::ship);
   ensemble.variable->heading_deg = 400;
-  Pd0Log log;
-  const auto seen = read_ensembles(log, {ensemble});
+  const auto seen = read_ensembles({ensemble});
   EXPECT_EQ(seen.verdicts.front(), Verdict::out_of_range);
   EXPECT_TRUE(seen.all<CompassSample>().empty());
   EXPECT_TRUE(seen.all<DvlSample>().front().bottom_velocity_m_s);
@@ -203,7 +199,7 @@ TEST(Pd0Log, WhatCannotBeIsCountedAndTheRestIsUsed) {
   ensemble = ensemble_of(pd0::Axes::ship);
   ensemble.bottom->velocity_m_s = {0.0, 25.0, 0.0, 0.0};
   ensemble.variable->speed_of_sound_m_s = 0;
-  const auto fast = read_ensembles(log, {ensemble});
+  const auto fast = read_ensembles({ensemble});
   EXPECT_EQ(fast.verdicts.front(), Verdict::out_of_range);
   EXPECT_FALSE(fast.all<DvlSample>().front().bottom_velocity_m_s);
   EXPECT_FALSE(fast.all<DvlSample>().front().sound_speed_m_s);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/pni_compass.h"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -27,8 +25,7 @@ std::vector<std::uint8_t> data_frame(std::initializer_list<std::pair<int, float>
 }
 
 struct PniReading {
-  PniCompass compass;
-  Collector collector{compass};
+  Collector collector{protocols::Protocol::pni};
   void feed(const std::vector<std::uint8_t>& frame) { collector.feed<trax::Parser>(frame); }
 };
 

@@ -4,8 +4,6 @@
 
 #include <limits>
 
-#include "instruments/keller_gauge.h"
-#include "instruments/paroscientific_gauge.h"
 #include "protocols/keller.h"
 #include "protocols/paroscientific.h"
 #include "tests/instruments/collector.h"
@@ -29,8 +27,7 @@ config::PortSettings gauge_port(Protocol protocol, bool start_up = true) {
 std::string text(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
 
 TEST(ParoscientificGauge, AValueCountsOnceItsUnitIsKnown) {
-  ParoscientificGauge gauge(gauge_port(Protocol::paroscientific));
-  Collector collector(gauge);
+  Collector collector(gauge_port(Protocol::paroscientific));
   collector.feed<paroscientific::Parser>(
       "*000114.69595\r\n*0001UN=1\r\n*000114.69595\r\n*0001UN=2\r\n*00011013.25\r\n");
   const auto samples = collector.all<DepthSample>();
@@ -45,23 +42,20 @@ TEST(ParoscientificGauge, AValueCountsOnceItsUnitIsKnown) {
 }
 
 TEST(ParoscientificGauge, WithoutADialogueTheUnitIsThatOfDelivery) {
-  ParoscientificGauge gauge(gauge_port(Protocol::paroscientific, false));
-  Collector collector(gauge);
+  Collector collector(gauge_port(Protocol::paroscientific, false));
   collector.feed<paroscientific::Parser>("*000114.69595\r\n");
   EXPECT_NEAR(collector.all<DepthSample>().at(0).pressure_Pa.value(), 101325, 1);
 }
 
 TEST(ParoscientificGauge, EchoesAreIgnored) {
-  ParoscientificGauge gauge(gauge_port(Protocol::paroscientific, false));
-  Collector collector(gauge);
+  Collector collector(gauge_port(Protocol::paroscientific, false));
   collector.feed<paroscientific::Parser>("*0100P4\r\n*0100UN\r\n*000190\r\n");
   EXPECT_EQ(collector.verdicts, std::vector<Verdict>(3, Verdict::ignored));
   EXPECT_TRUE(collector.measurements.empty());
 }
 
 TEST(KellerGauge, BarBecomesPascal) {
-  KellerGauge gauge;
-  Collector collector(gauge);
+  Collector collector(Protocol::keller);
   collector.feed<keller::Parser>(keller::read_request(250, 1));
   collector.feed<keller::Parser>(keller::encode(keller::Reading{250, 1.5F, 0}));
   EXPECT_EQ(collector.verdicts, (std::vector{Verdict::ignored, Verdict::used}));
@@ -69,8 +63,7 @@ TEST(KellerGauge, BarBecomesPascal) {
 }
 
 TEST(KellerGauge, WhatFailedIsCounted) {
-  KellerGauge gauge;
-  Collector collector(gauge);
+  Collector collector(Protocol::keller);
   constexpr std::uint8_t kPressureFailed = 2;
   for (const keller::Reading& reading : {keller::Reading{250, 1.5F, kPressureFailed},
                                          keller::Reading{250, std::numeric_limits<float>::infinity(), 0},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/ubx_receiver.h"
+#include "protocols/ubx_receiver.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "config/load.h"
-#include "protocols/ubx_receiver.h"
+#include "protocols/ubx_navigation.h"
 #include "protocols/wire_fields.h"
 #include "tests/instruments/collector.h"
 #include "tests/protocols/shared_capture.h"
@@ -48,8 +48,7 @@ constexpr std::int64_t kNoon_ns = 1'795'521'600'000'000'000;  // 2026-11-24 12:0
 
 struct UbxSamples : testing::Test {
   config::PortSettings settings = config::default_port("gps", protocols::Protocol::ubx, 38400);
-  UbxReceiver receiver{settings};
-  Collector collector{receiver};
+  Collector collector{settings};
 
   void take(const std::vector<std::uint8_t>& bytes) { collector.feed<ubx::PortParser>(bytes); }
   void take(const std::string& sentence) { collector.feed<ubx::PortParser>(std::string_view(sentence)); }
@@ -352,13 +351,13 @@ T at(protocols::Bytes frame, std::size_t offset) {
 TEST(UbxCapture, SamplesOfACaptureByOthers) {
   const auto stream = protocols::test::shared_capture("ubx/pygpsdata-MIXED.log");
   if (stream.empty()) GTEST_SKIP() << "no captures of u-blox receivers here";
-  UbxReceiver receiver(config::default_port("gps", protocols::Protocol::ubx, 38400));
-  Collector collector(receiver);
+  const auto receiver = make_instrument(config::default_port("gps", protocols::Protocol::ubx, 38400));
+  Collector collector(*receiver);
   ubx::PortParser parser;
   std::size_t positions = 0, lists = 0;
   parser.feed(stream, [&](const protocols::Frame& frame) {
     collector.measurements.clear();
-    EXPECT_NE(receiver.read(frame, collector), Verdict::out_of_range) << frame.id.view();
+    EXPECT_NE(receiver->read(frame, collector), Verdict::out_of_range) << frame.id.view();
     if (frame.id.view() == "NAV-SAT") lists += collector.all<SkySample>().size();
     if (frame.id.view() != "NAV-PVT") return;
     ++positions;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/vectornav_sensor.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "protocols/vectornav.h"
 #include "protocols/vectornav_lines.h"
 #include "tests/instruments/collector.h"
 
@@ -32,8 +31,7 @@ vn::Reading whole_reading() {
 }
 
 struct VectorNavSamples : testing::Test {
-  VectorNavSensor sensor;
-  Collector collector{sensor};
+  Collector collector{protocols::Protocol::vectornav};
 
   void take(const vn::Reading& reading) { collector.feed<vn::Parser>(vn::encode_binary(reading)); }
   void take(std::string_view body) {
