@@ -20,7 +20,7 @@ std::optional<double> slant_range_m(const SeaFloor& floor, const State& state) {
 }
 
 Altimeter::Altimeter(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : LineDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 std::optional<double> Altimeter::measure_m(std::int64_t t_ns) {
   const auto range_m = slant_range_m(options_.floor, motion_.at(t_ns));
@@ -31,13 +31,11 @@ std::optional<double> Altimeter::measure_m(std::int64_t t_ns) {
   return std::fmax(0.0, *range_m + noise_m);
 }
 
-void Altimeter::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (ticks_.next_ns() <= t_ns) {
-    std::string sentence;
-    protocols::nmea::append_dbt(sentence, measure_m(ticks_.next_ns()));
-    line_.put(ticks_.next_ns(), options_.baud, {sentence.begin(), sentence.end()}, out);
-    ticks_.pass();
-  }
+void Altimeter::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  std::string sentence;
+  protocols::nmea::append_dbt(sentence, measure_m(now_ns));
+  send(now_ns, {sentence.begin(), sentence.end()}, out);
+  ticks_.pass();
 }
 
 }  // namespace navcal::sim

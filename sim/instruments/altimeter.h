@@ -27,7 +27,7 @@ struct SeaFloor {
 
 /// Echo sounder that looks along the body's z axis: NMEA 0183 sentences DBT with the slant range. An empty field
 /// stands for no echo: beyond the range, nearer than the transducer can hear, or lost.
-class Altimeter final : public Device {
+class Altimeter final : public LineDevice {
  public:
   struct Options {
     SeaFloor floor;
@@ -42,19 +42,14 @@ class Altimeter final : public Device {
   Altimeter(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override { ticks_ = Ticks(t_ns, 1 / options_.rate_Hz, 0); }
-  void on_bytes(std::int64_t, protocols::Bytes) override {}
-  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
   /// What it says at t_ns: nullopt without an echo.
   [[nodiscard]] std::optional<double> measure_m(std::int64_t t_ns);
 
  private:
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
   Options options_;
   const Motion& motion_;
   Noise noise_;
-  Line line_;
-  Ticks ticks_;
 };
 
 }  // namespace navcal::sim

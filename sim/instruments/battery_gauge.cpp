@@ -10,7 +10,8 @@
 namespace navcal::sim {
 
 BatteryGauge::BatteryGauge(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), battery_(options.battery), noise_(options.seed) {}
+    : LineDevice(options.baud), options_(options), motion_(motion), battery_(options.battery),
+      noise_(options.seed) {}
 
 void BatteryGauge::power_on(std::int64_t t_ns) {
   constexpr double kPeriod_s = 0.5;
@@ -18,21 +19,18 @@ void BatteryGauge::power_on(std::int64_t t_ns) {
   drawn_ns_ = t_ns;
 }
 
-void BatteryGauge::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (ticks_.next_ns() <= t_ns) {
-    const std::int64_t now_ns = ticks_.next_ns();
-    const double motor_A = motion_.at(now_ns).motor_current_A;
-    battery_.draw(motor_A, static_cast<double>(now_ns - drawn_ns_) * 1e-9);
-    drawn_ns_ = now_ns;
-    const double voltage_V = battery_.voltage_V(motor_A) + noise_.normal(options_.voltage_noise_V);
-    const double current_A = battery_.current_A(motor_A) + noise_.normal(options_.current_noise_A);
-    const std::array gauges{protocols::nmea::StatedTransducer{'U', std::max(0.0, voltage_V), 3, 'V', "BATTERY"},
-                            protocols::nmea::StatedTransducer{'I', current_A, 3, 'A', "BATTERY"}};
-    std::string sentence;
-    protocols::nmea::append_xdr(sentence, gauges);
-    line_.put(now_ns, options_.baud, {sentence.begin(), sentence.end()}, out);
-    ticks_.pass();
-  }
+void BatteryGauge::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  const double motor_A = motion_.at(now_ns).motor_current_A;
+  battery_.draw(motor_A, static_cast<double>(now_ns - drawn_ns_) * 1e-9);
+  drawn_ns_ = now_ns;
+  const double voltage_V = battery_.voltage_V(motor_A) + noise_.normal(options_.voltage_noise_V);
+  const double current_A = battery_.current_A(motor_A) + noise_.normal(options_.current_noise_A);
+  const std::array gauges{protocols::nmea::StatedTransducer{'U', std::max(0.0, voltage_V), 3, 'V', "BATTERY"},
+                          protocols::nmea::StatedTransducer{'I', current_A, 3, 'A', "BATTERY"}};
+  std::string sentence;
+  protocols::nmea::append_xdr(sentence, gauges);
+  send(now_ns, {sentence.begin(), sentence.end()}, out);
+  ticks_.pass();
 }
 
 }  // namespace navcal::sim

@@ -12,7 +12,7 @@ namespace navcal::sim {
 
 /// A battery with its gauge: NMEA 0183 sentences XDR with voltage and current of the pack, twice a second. The
 /// motor draws the current of the motion; the battery is not charged again when power comes.
-class BatteryGauge final : public Device {
+class BatteryGauge final : public LineDevice {
  public:
   struct Options {
     Battery::Options battery;
@@ -24,18 +24,13 @@ class BatteryGauge final : public Device {
   BatteryGauge(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t, protocols::Bytes) override {}
-  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
   Options options_;
   const Motion& motion_;
   Battery battery_;
   Noise noise_;
-  Line line_;
-  Ticks ticks_;
   std::int64_t drawn_ns_ = 0;
 };
 

@@ -39,20 +39,16 @@ bool DopplerPing::has_lock() const {
 }
 
 DopplerLog::DopplerLog(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : LineDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void DopplerLog::power_on(std::int64_t t_ns) {
   ticks_ = Ticks(t_ns, 1 / options_.rate_Hz, options_.clock_ppm);
   pings_ = 0;
 }
 
-void DopplerLog::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (ticks_.next_ns() <= t_ns) {
-    const std::int64_t sent_ns = ticks_.next_ns();
-    const DopplerPing ping = measure(sent_ns - std::llround(options_.latency_s * 1e9));
-    line_.put(sent_ns, options_.baud, encode(ping, sent_ns), out);
-    ticks_.pass();
-  }
+void DopplerLog::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  send(now_ns, encode(measure(now_ns - std::llround(options_.latency_s * 1e9)), now_ns), out);
+  ticks_.pass();
 }
 
 DopplerPing DopplerLog::measure(std::int64_t t_ns) {

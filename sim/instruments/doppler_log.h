@@ -27,7 +27,7 @@ struct DopplerPing {
 
 /// What Doppler logs of any maker have in common: pings at the pace of their own clock, beams with noise and an
 /// error of scale, bottom lock within the range only. A derived class encodes the pings. It hears nothing.
-class DopplerLog : public Device {
+class DopplerLog : public LineDevice {
  public:
   struct Options {
     SeaFloor floor;
@@ -46,10 +46,6 @@ class DopplerLog : public Device {
   DopplerLog(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t, protocols::Bytes) override {}
-  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  protected:
   /// All bytes of one ping, sent at `sent_ns`.
@@ -57,13 +53,12 @@ class DopplerLog : public Device {
   [[nodiscard]] const Options& options() const { return options_; }
 
  private:
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
   [[nodiscard]] DopplerPing measure(std::int64_t t_ns);
 
   Options options_;
   const Motion& motion_;
   Noise noise_;
-  Line line_;
-  Ticks ticks_;
   std::uint32_t pings_ = 0;
 };
 

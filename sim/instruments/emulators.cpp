@@ -22,66 +22,50 @@ using protocols::Protocol;
 using EmulatorMaker = std::unique_ptr<Device> (*)(const EmulatorOptions&, const Motion&);
 
 template <class D>
-std::unique_ptr<Device> make_clocked(const EmulatorOptions& options, const Motion& motion) {
-  typename D::Options of_device;
+std::unique_ptr<Device> make_with(typename D::Options of_device, const EmulatorOptions& options,
+                                  const Motion& motion) {
   of_device.baud = options.baud;
   of_device.seed = options.seed;
-  of_device.clock_ppm = options.clock_ppm;
+  if constexpr (requires { of_device.clock_ppm; }) of_device.clock_ppm = options.clock_ppm;
+  if constexpr (requires { of_device.floor; }) of_device.floor = options.floor;
+  if constexpr (requires { of_device.receiver; }) of_device.receiver.origin = options.origin;
   return std::make_unique<D>(of_device, motion);
 }
 
 template <class D>
-std::unique_ptr<Device> make_doppler(const EmulatorOptions& options, const Motion& motion) {
-  typename D::Options of_device;
-  of_device.floor = options.floor;
-  of_device.baud = options.baud;
-  of_device.seed = options.seed;
-  of_device.clock_ppm = options.clock_ppm;
-  return std::make_unique<D>(of_device, motion);
+std::unique_ptr<Device> make(const EmulatorOptions& options, const Motion& motion) {
+  return make_with<D>({}, options, motion);
 }
 
 template <Oncore::Kind kind>
 std::unique_ptr<Device> make_receiver(const EmulatorOptions& options, const Motion& motion) {
   Oncore::Options of_device;
   of_device.kind = kind;
-  of_device.receiver.origin = options.origin;
-  of_device.baud = options.baud;
-  of_device.seed = options.seed;
-  return std::make_unique<Oncore>(of_device, motion);
-}
-
-std::unique_ptr<Device> make_sample_sender(const EmulatorOptions& options, const Motion& motion) {
-  SampleSender::Options of_device;
-  of_device.baud = options.baud;
-  of_device.seed = options.seed;
-  return std::make_unique<SampleSender>(of_device, motion);
+  return make_with<Oncore>(of_device, options, motion);
 }
 
 std::unique_ptr<Device> make_ubx(const EmulatorOptions& options, const Motion& motion) {
   UbxReceiver::Options of_device;
-  of_device.receiver.origin = options.origin;
   of_device.receiver.gps.timing = devices::usual_timing(Protocol::ubx, options.baud);
-  of_device.baud = options.baud;
-  of_device.seed = options.seed;
-  return std::make_unique<UbxReceiver>(of_device, motion);
+  return make_with<UbxReceiver>(of_device, options, motion);
 }
 
 constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
-    {Protocol::tcm2, make_clocked<Tcm2>},
-    {Protocol::imu_card, make_clocked<ImuCard>},
+    {Protocol::tcm2, make<Tcm2>},
+    {Protocol::imu_card, make<ImuCard>},
     {Protocol::oncore, make_receiver<Oncore::Kind::twelve_channels>},
-    {Protocol::motor_card, make_clocked<MotorCard>},
+    {Protocol::motor_card, make<MotorCard>},
     {Protocol::nmea, make_receiver<Oncore::Kind::nmea>},
     {Protocol::ubx, make_ubx},
-    {Protocol::mip, make_clocked<MipUnit>},
-    {Protocol::vectornav, make_clocked<VectorNav>},
-    {Protocol::pni, make_clocked<PniUnit>},
-    {Protocol::pd0, make_doppler<Pd0Doppler>},
-    {Protocol::pd6, make_doppler<Pd6Doppler>},
-    {Protocol::water_linked, make_doppler<WaterLinkedDoppler>},
-    {Protocol::samples, make_sample_sender},
-    {Protocol::paroscientific, make_clocked<ParoscientificEmulator>},
-    {Protocol::keller, make_clocked<KellerEmulator>},
+    {Protocol::mip, make<MipUnit>},
+    {Protocol::vectornav, make<VectorNav>},
+    {Protocol::pni, make<PniUnit>},
+    {Protocol::pd0, make<Pd0Doppler>},
+    {Protocol::pd6, make<Pd6Doppler>},
+    {Protocol::water_linked, make<WaterLinkedDoppler>},
+    {Protocol::samples, make<SampleSender>},
+    {Protocol::paroscientific, make<ParoscientificEmulator>},
+    {Protocol::keller, make<KellerEmulator>},
     {Protocol::described, nullptr},
 });
 

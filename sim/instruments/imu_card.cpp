@@ -18,8 +18,8 @@ constexpr std::int64_t kRateStep_ns = 5'000'000;  ///< to either side, for the c
 }  // namespace
 
 ImuCard::ImuCard(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), effects_(options.effects != nullptr ? *options.effects : none_),
-      noise_(options.seed) {}
+    : LineDevice(options.baud), options_(options), motion_(motion),
+      effects_(options.effects != nullptr ? *options.effects : none_), noise_(options.seed) {}
 
 void ImuCard::power_on(std::int64_t t_ns) {
   ticks_ = Ticks(t_ns, 1 / options_.imu.timing.rate_Hz, options_.clock_ppm);
@@ -28,15 +28,12 @@ void ImuCard::power_on(std::int64_t t_ns) {
   for (double& bias : bias_rad_s_) bias = noise_.normal(options_.imu.turn_on_bias_rad_s);
 }
 
-void ImuCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (ticks_.next_ns() <= t_ns) {
-    const std::int64_t sent_ns = ticks_.next_ns();
-    const double time_s = effects_.time_s(sent_ns);
-    const double latency_s = options_.imu.timing.latency_s + effects_.delays(time_s).card_s;
-    const auto frame = card::encode_record(measure(sent_ns - std::llround(latency_s * 1e9)));
-    line_.put(sent_ns, options_.baud, {frame.begin(), frame.end()}, out);
-    ticks_.pass(effects_.slow_ppm(Instrument::imu, time_s));
-  }
+void ImuCard::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  const double time_s = effects_.time_s(now_ns);
+  const double latency_s = options_.imu.timing.latency_s + effects_.delays(time_s).card_s;
+  const auto frame = card::encode_record(measure(now_ns - std::llround(latency_s * 1e9)));
+  send(now_ns, {frame.begin(), frame.end()}, out);
+  ticks_.pass(effects_.slow_ppm(Instrument::imu, time_s));
 }
 
 ImuCard::Mounted ImuCard::felt(const State& state, std::int64_t t_ns) const {

@@ -13,7 +13,7 @@ namespace navcal::sim {
 
 /// Inertial card: sends without being asked, at the pace of its own clock, and hears nothing. Its errors are those
 /// of docs/simulator.md; effects see its gyros, accelerometers and depth before the noise, its voltages after it.
-class ImuCard final : public Device {
+class ImuCard final : public LineDevice {
  public:
   struct Options {
     devices::ImuModel imu;
@@ -25,15 +25,12 @@ class ImuCard final : public Device {
   ImuCard(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t, protocols::Bytes) override {}
-  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
   /// Leak and supply bits (protocols::imu_card::StatusBit) from now on; over range comes of itself.
   void set_status(std::uint8_t status) { status_ = status; }
 
  private:
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
   [[nodiscard]] protocols::imu_card::Record measure(std::int64_t t_ns);
   /// What the card's sensors meet at their place and along their axes, without errors.
   struct Mounted {
@@ -50,8 +47,6 @@ class ImuCard final : public Device {
   EffectSet& effects_;
   Electronics electronics_;
   Noise noise_;
-  Line line_;
-  Ticks ticks_;
   std::array<double, 4> bias_rad_s_{};
   std::uint8_t sequence_ = 0;
   std::uint8_t status_ = 0;

@@ -32,12 +32,11 @@ bool has(const std::vector<std::uint8_t>& fields, std::uint8_t descriptor) {
 }  // namespace
 
 MipUnit::MipUnit(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void MipUnit::power_on(std::int64_t t_ns) {
   powered_ns_ = t_ns;
-  parser_ = {};
-  answers_.clear();
+  forget();
   idle_ = false;
   streams_ = {};
   streams_[0].set = mip::kSensorSet;
@@ -61,24 +60,15 @@ const MipUnit::Stream* MipUnit::first_due() const {
   return due;
 }
 
-std::int64_t MipUnit::next_event_ns() const {
+std::int64_t MipUnit::next_act_ns() const {
   const Stream* const due = first_due();
-  const std::int64_t stream_ns = due != nullptr ? sent_ns(*due) : kNever_ns;
-  return answers_.empty() ? stream_ns : std::min(stream_ns, answers_.front().due_ns);
+  return due != nullptr ? sent_ns(*due) : kNever_ns;
 }
 
-void MipUnit::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (next_event_ns() <= t_ns) {
-    const Stream* const due = first_due();
-    if (!answers_.empty() && (due == nullptr || answers_.front().due_ns <= sent_ns(*due))) {
-      line_.put(answers_.front().due_ns, options_.baud, std::move(answers_.front().bytes), out);
-      answers_.pop_front();
-      continue;
-    }
-    const std::int64_t now_ns = sent_ns(*due);
-    if (line_.free_ns() < now_ns + kMipBuffer_ns) line_.put(now_ns, options_.baud, packet(*due), out);
-    stream_of(due->set)->next_tick += due->decimation;
-  }
+void MipUnit::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  const Stream* const due = first_due();
+  if (line_.free_ns() < now_ns + kMipBuffer_ns) send(now_ns, packet(*due), out);
+  stream_of(due->set)->next_tick += due->decimation;
 }
 
 MipUnit::Stream* MipUnit::stream_of(std::uint8_t set) {
@@ -88,13 +78,9 @@ MipUnit::Stream* MipUnit::stream_of(std::uint8_t set) {
   return nullptr;
 }
 
-void MipUnit::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) { obey(t_ns, frame.bytes); });
-}
-
-void MipUnit::obey(std::int64_t t_ns, protocols::Bytes frame) {
-  const std::uint8_t set = frame[2];
-  for (const auto& field : mip::fields_of(frame)) {
+void MipUnit::obey(std::int64_t t_ns, const protocols::Frame& frame) {
+  const std::uint8_t set = frame.bytes[2];
+  for (const auto& field : mip::fields_of(frame.bytes)) {
     std::uint8_t outcome = error::kUnknownCommand;
     if (set == mip::kBaseSet) outcome = obey_base(t_ns, field.descriptor);
     if (set == mip::k3dmSet) outcome = obey_3dm(t_ns, field.descriptor, field.data);
@@ -103,9 +89,9 @@ void MipUnit::obey(std::int64_t t_ns, protocols::Bytes frame) {
                            field.descriptor == command::kSensorBaseRate ||
                            field.descriptor == command::kFilterBaseRate;
     const std::uint8_t of_set = field.data.empty() ? std::uint8_t{0} : field.data[0];
-    answers_.push_back({t_ns + kMipThinks_ns, set == mip::k3dmSet && asks_rate && outcome == error::kNone
-                                                  ? mip::encode_base_rate(reply, {of_set, kBaseRate_Hz})
-                                                  : mip::encode_reply(set, reply)});
+    answer(t_ns + kMipThinks_ns, set == mip::k3dmSet && asks_rate && outcome == error::kNone
+                                     ? mip::encode_base_rate(reply, {of_set, kBaseRate_Hz})
+                                     : mip::encode_reply(set, reply));
   }
 }
 

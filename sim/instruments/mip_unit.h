@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -18,7 +17,7 @@ namespace navcal::sim {
 /// MicroStrain inertial sensor (ICD section 7): sensor data, filter data with true headings, reference time of its
 /// own clock, and the commands of the start-up dialogue. After power-on it streams nothing until it is configured.
 /// Noise and turn-on bias are those of the reference card and compass.
-class MipUnit final : public Device {
+class MipUnit final : public CommandedDevice<protocols::mip::Parser> {
  public:
   struct Options {
     devices::ImuModel imu;
@@ -33,10 +32,6 @@ class MipUnit final : public Device {
   MipUnit(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override;
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
   struct Stream {
@@ -46,11 +41,9 @@ class MipUnit final : public Device {
     bool on = false;
     std::int64_t next_tick = 0;
   };
-  struct Answer {
-    std::int64_t due_ns;
-    std::vector<std::uint8_t> bytes;
-  };
-  void obey(std::int64_t t_ns, protocols::Bytes frame);
+  [[nodiscard]] std::int64_t next_act_ns() const override;
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   /// Error of the reply.
   std::uint8_t obey_base(std::int64_t t_ns, std::uint8_t command);
   std::uint8_t obey_3dm(std::int64_t t_ns, std::uint8_t command, protocols::Bytes data);
@@ -69,10 +62,7 @@ class MipUnit final : public Device {
   Options options_;
   const Motion& motion_;
   Noise noise_;
-  Line line_;
-  protocols::mip::Parser parser_;
   std::array<Stream, 2> streams_;
-  std::deque<Answer> answers_;
   Vector3 bias_rad_s_{};
   bool idle_ = false;
   std::int64_t powered_ns_ = 0;

@@ -16,41 +16,35 @@ namespace motor = protocols::motor_card;
 }  // namespace
 
 MotorCard::MotorCard(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), effects_(options.effects != nullptr ? *options.effects : none_),
-      noise_(options.seed) {}
+    : CommandedDevice(options.baud), options_(options), motion_(motion),
+      effects_(options.effects != nullptr ? *options.effects : none_), noise_(options.seed) {}
 
 void MotorCard::power_on(std::int64_t t_ns) {
   ticks_ = Ticks(t_ns, 1 / options_.motor.timing.rate_Hz, options_.clock_ppm);
-  parser_ = {};
+  forget();
   command_.reset();
   if (options_.obey) options_.obey(t_ns, {});
   sequence_ = 0;
 }
 
-void MotorCard::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) {
-    if (frame.id != motor::kMcc) return;
-    const auto wanted = motor::decode_command(frame.bytes);
-    if (!wanted) return;
-    const auto beyond = [](double fin) { return std::abs(fin) > motor::kFinLimit_deg; };
-    if (std::any_of(wanted->fins_deg.begin(), wanted->fins_deg.end(), beyond)) {
-      ++refused_;
-      return;
-    }
-    at_command_ = actuators_at(t_ns);
-    commanded_ns_ = t_ns;
-    command_ = wanted;
-    if (options_.obey) options_.obey(t_ns, *wanted);
-  });
+void MotorCard::obey(std::int64_t t_ns, const protocols::Frame& command) {
+  if (command.id != motor::kMcc) return;
+  const auto wanted = motor::decode_command(command.bytes);
+  if (!wanted) return;
+  const auto beyond = [](double fin) { return std::abs(fin) > motor::kFinLimit_deg; };
+  if (std::any_of(wanted->fins_deg.begin(), wanted->fins_deg.end(), beyond)) {
+    ++refused_;
+    return;
+  }
+  at_command_ = actuators_at(t_ns);
+  commanded_ns_ = t_ns;
+  command_ = wanted;
+  if (options_.obey) options_.obey(t_ns, *wanted);
 }
 
-void MotorCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (ticks_.next_ns() <= t_ns) {
-    const std::int64_t sent_ns = ticks_.next_ns();
-    const auto status = measure(sent_ns - std::llround(options_.motor.timing.latency_s * 1e9));
-    line_.put(sent_ns, options_.baud, motor::encode_status(status), out);
-    ticks_.pass(effects_.slow_ppm(Instrument::motor, effects_.time_s(sent_ns)));
-  }
+void MotorCard::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  send(now_ns, motor::encode_status(measure(now_ns - std::llround(options_.motor.timing.latency_s * 1e9))), out);
+  ticks_.pass(effects_.slow_ppm(Instrument::motor, effects_.time_s(now_ns)));
 }
 
 MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {

@@ -17,7 +17,7 @@ namespace navcal::sim {
 /// Motor controller card. Until the host commands it, it tells what the vehicle does; from then on its shaft and
 /// fins follow the command with the nominal vehicle's lags (docs/simulator.md). When there is a vehicle that
 /// obeys, the card always tells what that vehicle does.
-class MotorCard final : public Device {
+class MotorCard final : public CommandedDevice<protocols::motor_card::Parser> {
  public:
   struct Options {
     devices::MotorModel motor;
@@ -34,10 +34,6 @@ class MotorCard final : public Device {
   MotorCard(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
   /// Last command of the host that was not refused; nullopt from power-on to the first.
   [[nodiscard]] const std::optional<protocols::motor_card::Command>& command() const { return command_; }
@@ -45,6 +41,8 @@ class MotorCard final : public Device {
   [[nodiscard]] std::uint64_t refused() const { return refused_; }
 
  private:
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   struct Actuators {
     double rpm = 0;
     std::array<double, 3> fins_deg{};
@@ -59,9 +57,6 @@ class MotorCard final : public Device {
   EffectSet none_;
   EffectSet& effects_;
   Noise noise_;
-  Line line_;
-  Ticks ticks_;
-  protocols::motor_card::Parser parser_;
   std::optional<protocols::motor_card::Command> command_;
   Actuators at_command_;  ///< their positions when the command came
   std::int64_t commanded_ns_ = 0;

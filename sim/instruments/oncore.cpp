@@ -20,7 +20,7 @@ constexpr std::int64_t kUsefulTime_ns = 600 * base::kSecond_ns;
 }  // namespace
 
 Oncore::Oncore(const Options& options, const Motion& motion)
-    : options_(options), receiver_(options.receiver, motion, options.seed) {}
+    : LineDevice(options.baud), options_(options), receiver_(options.receiver, motion, options.seed) {}
 
 std::int64_t Oncore::latency_ns() const { return std::llround(options_.receiver.gps.timing.latency_s * 1e9); }
 
@@ -29,7 +29,6 @@ void Oncore::power_on(std::int64_t t_ns) {
   input_.clear();
   parser_ = {};
   requests_.clear();
-  answers_.clear();
   second_ns_ = (t_ns / base::kSecond_ns + 1) * base::kSecond_ns;
 }
 
@@ -45,25 +44,25 @@ bool Oncore::knows(protocols::FrameId id) const {
   return id == oncore::kEa || id == oncore::kBb || id == oncore::kBo || id == oncore::kCj;
 }
 
-void Oncore::read_input() {
+void Oncore::read_input(std::vector<Emission>& out) {
   parser_.feed(input_, [&](const protocols::Frame& frame) {
     const auto command = oncore::parse_command(frame.bytes);
     if (command && command->id == oncore::kCf) {
       requests_.clear();
       receiver_.power_on(second_ns_);  // it has forgotten as much as after a loss of power
-      answers_.emplace_back(frame.bytes.begin(), frame.bytes.end());
+      send(next_act_ns(), {frame.bytes.begin(), frame.bytes.end()}, out);
     }
     if (command && knows(command->id)) requests_[command->id] = {command->rate.value_or(0), 0};
-    if (!command && options_.kind == Kind::twelve_channels) take_aid(frame.bytes);
+    if (!command && options_.kind == Kind::twelve_channels) take_aid(frame.bytes, out);
   });
   input_.clear();
 }
 
-void Oncore::take_aid(protocols::Bytes frame) {
+void Oncore::take_aid(protocols::Bytes frame, std::vector<Emission>& out) {
   const auto position = oncore::parse_aid_position(frame);
   const auto utc_ns = oncore::parse_aid_time(frame);
   if (!position && !utc_ns) return;
-  answers_.emplace_back(frame.begin(), frame.end());
+  send(next_act_ns(), {frame.begin(), frame.end()}, out);
   // A position far from the true one does not help: other satellites are in view there.
   if (position && std::abs(position->latitude_deg - options_.receiver.origin.latitude_deg) < kUsefulPosition_deg &&
       std::abs(std::remainder(position->longitude_deg - options_.receiver.origin.longitude_deg, 360)) <
@@ -84,18 +83,13 @@ std::vector<std::uint8_t> Oncore::message(protocols::FrameId id, const GpsReadin
   return cj_message();
 }
 
-void Oncore::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  for (; next_event_ns() <= t_ns; second_ns_ += base::kSecond_ns) {
-    const std::int64_t sent_ns = next_event_ns();
-    const GpsReading reading = receiver_.measure(second_ns_);
-    if (options_.kind == Kind::nmea) {
-      input_.clear();
-      line_.put(sent_ns, options_.baud, message({}, reading), out);
-      continue;
-    }
-    read_input();
-    for (auto& answer : answers_) line_.put(sent_ns, options_.baud, std::move(answer), out);
-    answers_.clear();
+void Oncore::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  const GpsReading reading = receiver_.measure(second_ns_);
+  if (options_.kind == Kind::nmea) {
+    input_.clear();
+    send(now_ns, message({}, reading), out);
+  } else {
+    read_input(out);
     // The position first: it is what is waited for.
     const auto is_position = [](const auto& entry) {
       return entry.first == oncore::kHa || entry.first == oncore::kEa;
@@ -105,7 +99,7 @@ void Oncore::advance(std::int64_t t_ns, std::vector<Emission>& out) {
         if (is_position(entry) != positions) continue;
         auto& [id, request] = entry;
         if (request.wait_s == 0) {
-          line_.put(sent_ns, options_.baud, message(id, reading), out);
+          send(now_ns, message(id, reading), out);
           request.wait_s = request.every_s;
         }
         --request.wait_s;
@@ -113,6 +107,7 @@ void Oncore::advance(std::int64_t t_ns, std::vector<Emission>& out) {
     }
     std::erase_if(requests_, [](const auto& entry) { return entry.second.every_s == 0; });
   }
+  second_ns_ += base::kSecond_ns;
 }
 
 }  // namespace navcal::sim

@@ -13,7 +13,7 @@ namespace navcal::sim {
 /// Motorola Oncore (ICD section 2): silent until asked, reads its input once a second, sends some time after
 /// the second that its messages state. With 12 channels it takes position and time from its host. Nothing that was
 /// asked for outlives a loss of power.
-class Oncore final : public Device {
+class Oncore final : public LineDevice {
  public:
   enum class Kind : std::uint8_t {
     twelve_channels,  ///< supports Ha and Ea
@@ -33,9 +33,6 @@ class Oncore final : public Device {
 
   void power_on(std::int64_t t_ns) override;
   void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override { return second_ns_ + latency_ns(); }
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
   /// A message that was asked for.
@@ -43,19 +40,19 @@ class Oncore final : public Device {
     std::uint8_t every_s = 0;  ///< 0: once
     std::uint8_t wait_s = 0;   ///< seconds until it is due
   };
+  [[nodiscard]] std::int64_t next_act_ns() const override { return second_ns_ + latency_ns(); }
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
   [[nodiscard]] std::int64_t latency_ns() const;
   [[nodiscard]] bool knows(protocols::FrameId id) const;
-  void read_input();
+  void read_input(std::vector<Emission>& out);
   /// Position or time from the host; the answer is the command itself.
-  void take_aid(protocols::Bytes frame);
+  void take_aid(protocols::Bytes frame, std::vector<Emission>& out);
   /// Empty when this message is not one of this receiver.
   [[nodiscard]] std::vector<std::uint8_t> message(protocols::FrameId id, const GpsReading& reading) const;
 
   Options options_;
   GpsReceiver receiver_;
-  Line line_;
   std::vector<std::uint8_t> input_;
-  std::vector<std::vector<std::uint8_t>> answers_;  ///< to be sent at the next second
   protocols::oncore::CommandParser parser_;
   std::map<protocols::FrameId, Request> requests_;
   std::int64_t second_ns_ = 0;

@@ -15,7 +15,6 @@ namespace trax = protocols::trax;
 using trax::Component;
 using trax::FrameNumber;
 
-constexpr std::int64_t kPniThinks_ns = 2'000'000;
 constexpr std::int64_t kPniLatency_ns = 30'000'000;
 /// The automatic sampling looks this often, and takes a sample when the device has turned so far since the last.
 constexpr std::int64_t kLook_ns = 100'000'000;
@@ -24,11 +23,10 @@ constexpr double kSampleTurn_rad = 25 * base::kRadiansPerDegree;
 }  // namespace
 
 PniUnit::PniUnit(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void PniUnit::power_on(std::int64_t t_ns) {
-  parser_ = {};
-  answers_.clear();
+  forget();
   electronics_.power_on(t_ns, motion_);
   components_ = {static_cast<std::uint8_t>(Component::heading), static_cast<std::uint8_t>(Component::pitch),
                  static_cast<std::uint8_t>(Component::roll)};
@@ -38,72 +36,53 @@ void PniUnit::power_on(std::int64_t t_ns) {
   points_ = 12;
 }
 
-std::int64_t PniUnit::latency_ns() const { return kPniLatency_ns; }
-
-std::int64_t PniUnit::next_event_ns() const {
-  std::int64_t next_ns = answers_.empty() ? kNever_ns : answers_.front().due_ns;
-  if (continuous_) next_ns = std::min(next_ns, frames_.next_ns());
-  if (calibrating_ && automatic_) next_ns = std::min(next_ns, next_look_ns_);
-  return next_ns;
+std::int64_t PniUnit::next_act_ns() const {
+  return std::min(continuous_ ? ticks_.next_ns() : kNever_ns,
+                  calibrating_ && automatic_ ? next_look_ns_ : kNever_ns);
 }
 
-void PniUnit::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  for (std::int64_t now_ns = next_event_ns(); now_ns <= t_ns; now_ns = next_event_ns()) {
-    if (!answers_.empty() && answers_.front().due_ns == now_ns) {
-      Answer due = std::move(answers_.front());
-      answers_.pop_front();
-      line_.put(now_ns, options_.baud, due.bytes ? std::move(*due.bytes) : data(now_ns), out);
-    } else if (continuous_ && frames_.next_ns() == now_ns) {
-      frames_.pass();
-      if (line_.free_ns() <= now_ns) line_.put(now_ns, options_.baud, data(now_ns), out);
-    } else {
-      next_look_ns_ += kLook_ns;
-      const State state = motion_.at(now_ns);
-      const auto& [roll_rad, pitch_rad, yaw_rad] = state.euler_rad;
-      const bool is_new =
-          samples_.empty() || std::abs(base::wrapped(yaw_rad - samples_.back().heading_rad)) > kSampleTurn_rad;
-      if (is_new) take_calibration_sample(now_ns);
-    }
+void PniUnit::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  if (continuous_ && ticks_.next_ns() == now_ns) {
+    ticks_.pass();
+    if (line_.free_ns() <= now_ns) send(now_ns, data(now_ns), out);
+    return;
   }
+  next_look_ns_ += kLook_ns;
+  const double yaw_rad = motion_.at(now_ns).euler_rad[2];
+  if (samples_.empty() || std::abs(base::wrapped(yaw_rad - samples_.back().heading_rad)) > kSampleTurn_rad)
+    take_calibration_sample(now_ns);
 }
 
-void PniUnit::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) { obey(t_ns, frame.bytes); });
-}
-
-void PniUnit::answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes) {
-  const std::int64_t before_ns = answers_.empty() ? t_ns : answers_.back().due_ns;
-  answers_.push_back({std::max(t_ns + kPniThinks_ns, before_ns), std::move(bytes)});
-}
-
-void PniUnit::obey(std::int64_t t_ns, protocols::Bytes frame) {
+void PniUnit::obey(std::int64_t t_ns, const protocols::Frame& command) {
+  const protocols::Bytes frame = command.bytes;
   const protocols::Bytes payload = frame.subspan(3, frame.size() - trax::kOverhead);
   switch (static_cast<FrameNumber>(frame[2])) {
     case FrameNumber::get_module_info: {
       constexpr std::uint8_t kTypeAndRevision[] = {'T', 'R', 'A', 'X', '0', '4', '0', '0'};
-      return answer(t_ns, trax::encode_frame(FrameNumber::module_info, kTypeAndRevision));
+      return say(t_ns, trax::encode_frame(FrameNumber::module_info, kTypeAndRevision));
     }
     case FrameNumber::set_data_components:
       if (!payload.empty() && payload.size() == 1U + payload[0])
         components_.assign(payload.begin() + 1, payload.end());
       return;
-    case FrameNumber::get_data: answers_.push_back({t_ns + kPniThinks_ns + latency_ns(), std::nullopt}); return;
+    case FrameNumber::get_data:
+      return answer(t_ns + kThinks_ns + kPniLatency_ns, [this](std::int64_t due_ns) { return data(due_ns); });
     case FrameNumber::set_config: return obey_setting(t_ns, payload);
     case FrameNumber::set_acquisition:
       if (const auto acquisition = trax::decode_acquisition(frame)) {
         polled_ = acquisition->polled;
         interval_s_ = std::clamp(acquisition->interval_s, 0.02, 100.0);
-        answer(t_ns, trax::encode_frame(FrameNumber::acquisition_done));
+        say(t_ns, trax::encode_frame(FrameNumber::acquisition_done));
       }
       return;
     case FrameNumber::start_continuous:
       continuous_ = options_.has_continuous && !polled_ && !calibrating_;
-      if (continuous_) frames_ = Ticks(t_ns, interval_s_, options_.clock_ppm);
+      if (continuous_) ticks_ = Ticks(t_ns, interval_s_, options_.clock_ppm);
       return;
     case FrameNumber::stop_continuous: continuous_ = false; return;
     case FrameNumber::save: {
       constexpr std::uint8_t kNoError[] = {0, 0};
-      return answer(t_ns, trax::encode_frame(FrameNumber::save_done, kNoError));
+      return say(t_ns, trax::encode_frame(FrameNumber::save_done, kNoError));
     }
     case FrameNumber::start_calibration: return start_calibration(t_ns);
     case FrameNumber::stop_calibration: calibrating_ = false; return;
@@ -122,7 +101,7 @@ void PniUnit::obey_setting(std::int64_t t_ns, protocols::Bytes payload) {
   } else if (setting == trax::Setting::automatic_sampling) {
     automatic_ = payload[1] != 0;
   }
-  answer(t_ns, trax::encode_frame(FrameNumber::set_config_done));
+  say(t_ns, trax::encode_frame(FrameNumber::set_config_done));
 }
 
 void PniUnit::start_calibration(std::int64_t t_ns) {
@@ -130,14 +109,14 @@ void PniUnit::start_calibration(std::int64_t t_ns) {
   continuous_ = false;
   samples_.clear();
   next_look_ns_ = t_ns + kLook_ns;
-  answer(t_ns, trax::encode_sample_count(0));
+  say(t_ns, trax::encode_sample_count(0));
 }
 
 /// The score follows the last sample: scatter of headings and tilts, as far as a host can see it.
 void PniUnit::take_calibration_sample(std::int64_t t_ns) {
   const State state = motion_.at(t_ns);
   samples_.push_back({base::wrapped(state.euler_rad[2]), state.euler_rad[1], state.euler_rad[0]});
-  answer(t_ns, trax::encode_sample_count(static_cast<std::uint32_t>(samples_.size())));
+  say(t_ns, trax::encode_sample_count(static_cast<std::uint32_t>(samples_.size())));
   if (samples_.size() < points_) return;
   calibrating_ = false;
   double north = 0, east = 0, least_rad = 0, greatest_rad = 0;
@@ -149,12 +128,12 @@ void PniUnit::take_calibration_sample(std::int64_t t_ns) {
   }
   const double uneven = std::hypot(north, east);
   const double tilt_range_deg = (greatest_rad - least_rad) * base::kDegreesPerRadian;
-  answer(t_ns, trax::encode_score({.magnetometer = 0.25 + uneven,
-                                   .reserved = 0,
-                                   .accelerometer = 0.5,
-                                   .distribution_error = uneven,
-                                   .tilt_error = tilt_range_deg < 10 ? 1.0 : 0.0,
-                                   .tilt_range_deg = tilt_range_deg}));
+  say(t_ns, trax::encode_score({.magnetometer = 0.25 + uneven,
+                                .reserved = 0,
+                                .accelerometer = 0.5,
+                                .distribution_error = uneven,
+                                .tilt_error = tilt_range_deg < 10 ? 1.0 : 0.0,
+                                .tilt_range_deg = tilt_range_deg}));
 }
 
 Vector3 PniUnit::field_uT(const State& state) {
@@ -164,7 +143,7 @@ Vector3 PniUnit::field_uT(const State& state) {
 }
 
 std::vector<std::uint8_t> PniUnit::data(std::int64_t t_ns) {
-  const std::int64_t measured_ns = t_ns - latency_ns();
+  const std::int64_t measured_ns = t_ns - kPniLatency_ns;
   const State state = motion_.at(measured_ns);
   const Vector3 field = field_uT(state);
   const double roll_rad = state.euler_rad[0] + noise_.normal(options_.compass.tilt_noise_rad);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
-#include <optional>
 #include <vector>
 
 #include "devices/instrument_model.h"
@@ -17,7 +15,7 @@ namespace navcal::sim {
 /// PNI TRAX (ICD section 11): data on request and continuous, settings, and the user calibration with automatic
 /// sampling. Made from the documentation in use here, not from a device. After power-on it waits to be polled.
 /// Noise is that of the reference compass; the tilt has no lag, because it comes from accelerometers.
-class PniUnit final : public Device {
+class PniUnit final : public CommandedDevice<protocols::trax::Parser> {
  public:
   struct Options {
     devices::CompassModel compass;
@@ -30,37 +28,27 @@ class PniUnit final : public Device {
   PniUnit(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override;
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
-  /// A frame as it is, or data that are measured when they are due.
-  struct Answer {
-    std::int64_t due_ns;
-    std::optional<std::vector<std::uint8_t>> bytes;
-  };
+  static constexpr std::int64_t kThinks_ns = 2'000'000;
+
+  [[nodiscard]] std::int64_t next_act_ns() const override;
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   struct Sample {
     double heading_rad, pitch_rad, roll_rad;
   };
-  void obey(std::int64_t t_ns, protocols::Bytes frame);
   void obey_setting(std::int64_t t_ns, protocols::Bytes payload);
   void start_calibration(std::int64_t t_ns);
   void take_calibration_sample(std::int64_t t_ns);
-  void answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes);
+  void say(std::int64_t t_ns, std::vector<std::uint8_t> bytes) { answer(t_ns + kThinks_ns, std::move(bytes)); }
   [[nodiscard]] Vector3 field_uT(const State& state);
   [[nodiscard]] std::vector<std::uint8_t> data(std::int64_t t_ns);
-  [[nodiscard]] std::int64_t latency_ns() const;
 
   Options options_;
   const Motion& motion_;
   Noise noise_;
   Electronics electronics_;
-  Line line_;
-  protocols::trax::Parser parser_;
-  Ticks frames_;
-  std::deque<Answer> answers_;
   std::vector<std::uint8_t> components_;
   bool continuous_ = false, polled_ = true;
   double interval_s_ = 0.1;

@@ -18,22 +18,6 @@ constexpr double kSalt_kg_m3 = 1025;
 constexpr std::int64_t kAnswersAfter_ns = 2'000'000;  ///< between a request and its answer
 constexpr paroscientific::Address kToHost{paroscientific::kHost, paroscientific::kFirstGauge};
 
-/// Puts the answers that are due on the line.
-void send_due(std::int64_t t_ns, int baud, std::vector<Emission>& answers, Line& line,
-              std::vector<Emission>& out) {
-  const auto due = std::stable_partition(answers.begin(), answers.end(),
-                                         [&](const Emission& answer) { return answer.start_ns <= t_ns; });
-  for (auto answer = answers.begin(); answer != due; ++answer)
-    line.put(answer->start_ns, baud, std::move(answer->bytes), out);
-  answers.erase(answers.begin(), due);
-}
-
-std::int64_t first_due_ns(const std::vector<Emission>& answers) {
-  std::int64_t first_ns = kNever_ns;
-  for (const Emission& answer : answers) first_ns = std::min(first_ns, answer.start_ns);
-  return first_ns;
-}
-
 }  // namespace
 
 double absolute_pressure_Pa(const State& state) {
@@ -41,31 +25,29 @@ double absolute_pressure_Pa(const State& state) {
 }
 
 ParoscientificEmulator::ParoscientificEmulator(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void ParoscientificEmulator::power_on(std::int64_t) {
-  parser_ = {};
-  ticks_.reset();
+  forget();
+  continuous_ = false;
   p3_ns_.reset();
-  answers_.clear();
-}
-
-void ParoscientificEmulator::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) { obey(t_ns, frame); });
 }
 
 void ParoscientificEmulator::obey(std::int64_t t_ns, const protocols::Frame& command) {
   if (paroscientific::address_of(command.bytes).to != paroscientific::kFirstGauge) return;
-  ticks_.reset();
+  continuous_ = false;
   p3_ns_.reset();
   const auto say = [&](const std::string& text) {
-    answers_.push_back({t_ns + kAnswersAfter_ns, paroscientific::encode_line(kToHost, text)});
+    answer(t_ns + kAnswersAfter_ns, paroscientific::encode_line(kToHost, text));
   };
   const std::string_view name = command.id.view();
   if (command.id == paroscientific::kUnits) say(fmt::format("UN={}", options_.unit));
   if (name == "VR") say("VR=R5.10");
   if (name == "P3") p3_ns_ = t_ns + std::llround(options_.integration_s * 1e9);
-  if (command.id == paroscientific::kContinuous) ticks_ = Ticks(t_ns, options_.integration_s, options_.clock_ppm);
+  if (command.id == paroscientific::kContinuous) {
+    continuous_ = true;
+    ticks_ = Ticks(t_ns, options_.integration_s, options_.clock_ppm);
+  }
 }
 
 std::string ParoscientificEmulator::value(std::int64_t t_ns) {
@@ -74,42 +56,30 @@ std::string ParoscientificEmulator::value(std::int64_t t_ns) {
   return fmt::format("{:.5f}", pressure_Pa / paroscientific::unit_Pa(options_.unit).value_or(1));
 }
 
-std::int64_t ParoscientificEmulator::next_event_ns() const {
-  return std::min({first_due_ns(answers_), ticks_ ? ticks_->next_ns() : kNever_ns, p3_ns_.value_or(kNever_ns)});
+std::int64_t ParoscientificEmulator::next_act_ns() const {
+  return std::min(continuous_ ? ticks_.next_ns() : kNever_ns, p3_ns_.value_or(kNever_ns));
 }
 
-void ParoscientificEmulator::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  send_due(t_ns, options_.baud, answers_, line_, out);
-  if (p3_ns_ && *p3_ns_ <= t_ns) {
-    const std::int64_t due_ns = *std::exchange(p3_ns_, std::nullopt);
-    line_.put(due_ns, options_.baud, paroscientific::encode_line(kToHost, value(due_ns)), out);
-  }
-  while (ticks_ && ticks_->next_ns() <= t_ns) {
-    const std::int64_t due_ns = ticks_->next_ns();
-    line_.put(due_ns, options_.baud, paroscientific::encode_line(kToHost, value(due_ns)), out);
-    ticks_->pass();
-  }
+void ParoscientificEmulator::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  send(now_ns, paroscientific::encode_line(kToHost, value(now_ns)), out);
+  if (!std::exchange(p3_ns_, std::nullopt)) ticks_.pass();
 }
 
 KellerEmulator::KellerEmulator(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void KellerEmulator::power_on(std::int64_t) {
-  parser_ = {};
+  forget();
   initialised_ = was_initialised_ = false;
-  answers_.clear();
 }
 
-void KellerEmulator::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) {
-    if (frame.bytes[0] != options_.address && frame.bytes[0] != keller::kAnyAddress) return;
-    if (options_.echoes) answers_.push_back({t_ns, {frame.bytes.begin(), frame.bytes.end()}});
-    if (auto bytes_to_send = answer(t_ns, frame); !bytes_to_send.empty())
-      answers_.push_back({t_ns + kAnswersAfter_ns, std::move(bytes_to_send)});
-  });
+void KellerEmulator::obey(std::int64_t t_ns, const protocols::Frame& command) {
+  if (command.bytes[0] != options_.address && command.bytes[0] != keller::kAnyAddress) return;
+  if (options_.echoes) answer(t_ns, Message(command.bytes.begin(), command.bytes.end()));
+  if (auto bytes = reply_to(t_ns, command); !bytes.empty()) answer(t_ns + kAnswersAfter_ns, std::move(bytes));
 }
 
-std::vector<std::uint8_t> KellerEmulator::answer(std::int64_t t_ns, const protocols::Frame& request) {
+std::vector<std::uint8_t> KellerEmulator::reply_to(std::int64_t t_ns, const protocols::Frame& request) {
   const std::uint8_t address = request.bytes[0];
   if (request.id == keller::kInitialiseRequest) {
     const std::uint8_t state = was_initialised_ ? 1 : 0;
@@ -131,12 +101,6 @@ std::vector<std::uint8_t> KellerEmulator::answer(std::int64_t t_ns, const protoc
     return keller::encode(keller::Refusal{address, keller::kReadChannel, kNoSuchChannel});
   }
   return keller::encode(keller::Reading{address, static_cast<float>(value), 0});
-}
-
-std::int64_t KellerEmulator::next_event_ns() const { return first_due_ns(answers_); }
-
-void KellerEmulator::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  send_due(t_ns, options_.baud, answers_, line_, out);
 }
 
 }  // namespace navcal::sim

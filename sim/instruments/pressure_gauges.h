@@ -24,7 +24,7 @@ struct PressureOptions {
 
 /// Paroscientific gauge as it is delivered: silent until it is asked. UN, VR, P3 and P4 are obeyed. Any command
 /// ends the continuous values of P4.
-class ParoscientificEmulator final : public Device {
+class ParoscientificEmulator final : public CommandedDevice<protocols::paroscientific::Parser> {
  public:
   struct Options : PressureOptions {
     int unit = 1;  ///< UN
@@ -33,28 +33,23 @@ class ParoscientificEmulator final : public Device {
   ParoscientificEmulator(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override;
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
-  void obey(std::int64_t t_ns, const protocols::Frame& command);
+  [[nodiscard]] std::int64_t next_act_ns() const override;
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   [[nodiscard]] std::string value(std::int64_t t_ns);
 
   Options options_;
   const Motion& motion_;
   Noise noise_;
-  Line line_;
-  protocols::paroscientific::Parser parser_;
-  std::optional<Ticks> ticks_;         ///< of P4
+  bool continuous_ = false;            ///< P4
   std::optional<std::int64_t> p3_ns_;  ///< when the answer to P3 is due
-  std::vector<Emission> answers_;
 };
 
 /// Keller transmitter as it is delivered: it answers F48 and F73 at its own address and at 250, and refuses F73
 /// before F48.
-class KellerEmulator final : public Device {
+class KellerEmulator final : public CommandedDevice<protocols::keller::Parser> {
  public:
   struct Options : PressureOptions {
     std::uint8_t address = 1;
@@ -63,21 +58,17 @@ class KellerEmulator final : public Device {
   KellerEmulator(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override;
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
-  [[nodiscard]] std::vector<std::uint8_t> answer(std::int64_t t_ns, const protocols::Frame& request);
+  [[nodiscard]] std::int64_t next_act_ns() const override { return kNever_ns; }
+  void act(std::int64_t, std::vector<Emission>&) override {}
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
+  [[nodiscard]] Message reply_to(std::int64_t t_ns, const protocols::Frame& request);
 
   Options options_;
   const Motion& motion_;
   Noise noise_;
-  Line line_;
-  protocols::keller::Parser parser_;
   bool initialised_ = false, was_initialised_ = false;
-  std::vector<Emission> answers_;
 };
 
 }  // namespace navcal::sim

@@ -23,18 +23,11 @@ LineWriter line_at(std::string_view class_name, std::int64_t t_ns) {
 }  // namespace
 
 SampleSender::SampleSender(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : LineDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void SampleSender::power_on(std::int64_t t_ns) { ticks_ = Ticks(t_ns, 1 / kSender_Hz, 0); }
 
-void SampleSender::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (ticks_.next_ns() <= t_ns) {
-    send(ticks_.next_ns(), out);
-    ticks_.pass();
-  }
-}
-
-void SampleSender::send(std::int64_t t_ns, std::vector<Emission>& out) {
+void SampleSender::act(std::int64_t t_ns, std::vector<Emission>& out) {
   const State state = motion_.at(t_ns);
   Vector3 velocity_m_s = state.velocity_body_m_s;
   for (double& component : velocity_m_s) component += noise_.normal(options_.velocity_noise_m_s);
@@ -54,7 +47,8 @@ void SampleSender::send(std::int64_t t_ns, std::vector<Emission>& out) {
                  .number("value", state.water_temperature_C + noise_.normal(options_.temperature_noise_C))
                  .finish();
   }
-  line_.put(t_ns, options_.baud, {lines.begin(), lines.end()}, out);
+  send(t_ns, {lines.begin(), lines.end()}, out);
+  ticks_.pass();
 }
 
 }  // namespace navcal::sim

@@ -12,7 +12,7 @@ namespace navcal::sim {
 /// A program that sends samples as lines (ICD section 13), each with its time of validity: a Doppler log with
 /// bottom lock and a pressure gauge five times a second, and a mission sensor of the water's temperature once a
 /// second.
-class SampleSender final : public Device {
+class SampleSender final : public LineDevice {
  public:
   struct Options {
     double velocity_noise_m_s = 0.005;
@@ -24,19 +24,13 @@ class SampleSender final : public Device {
   SampleSender(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t, protocols::Bytes) override {}
-  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
-  void send(std::int64_t t_ns, std::vector<Emission>& out);
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
 
   Options options_;
   const Motion& motion_;
   Noise noise_;
-  Line line_;
-  Ticks ticks_;
   std::uint64_t sent_ = 0;
 };
 

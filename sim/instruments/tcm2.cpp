@@ -29,8 +29,9 @@ double wrapped(double angle, double turn, double resolution) {
 }  // namespace
 
 Tcm2::Tcm2(const Options& options, const Motion& motion)
-    : options_(options), effects_(options.sensor.effects != nullptr ? *options.sensor.effects : none_),
-      sensor_(options.sensor, motion, options.seed), baud_(options.baud), next_baud_(options.baud) {}
+    : CommandedDevice(options.baud), options_(options),
+      effects_(options.sensor.effects != nullptr ? *options.sensor.effects : none_),
+      sensor_(options.sensor, motion, options.seed), next_baud_(options.baud) {}
 
 void Tcm2::power_on(std::int64_t t_ns) {
   sensor_.power_on(t_ns);
@@ -43,58 +44,37 @@ void Tcm2::power_on(std::int64_t t_ns) {
 }
 
 void Tcm2::restart(std::int64_t t_ns) {
-  parser_ = {};
-  answers_.clear();
+  forget();
   running_ = calibrating_ = false;
   score_.clear();
   baud_ = next_baud_;
-  answer(t_ns + kStartsUp_ns, {kBanner.begin(), kBanner.end()});
+  answer(t_ns + kStartsUp_ns + kThinks_ns, Message(kBanner.begin(), kBanner.end()));
 }
 
 void Tcm2::start(std::int64_t t_ns) {
   running_ = true;
-  words_ = Ticks(t_ns, period_s(), options_.clock_ppm);
+  ticks_ = Ticks(t_ns, period_s(), options_.clock_ppm);
 }
 
 std::int64_t Tcm2::latency_ns() const { return std::llround(options_.sensor.compass.timing.latency_s * 1e9); }
 
 double Tcm2::period_s() const { return static_cast<double>(settings_.divider) / settings_.clock_Hz; }
 
-std::int64_t Tcm2::next_event_ns() const {
-  const std::int64_t answer_ns = answers_.empty() ? kNever_ns : answers_.front().due_ns;
-  return running_ ? std::min(answer_ns, words_.next_ns()) : answer_ns;
+std::int64_t Tcm2::next_act_ns() const { return running_ ? ticks_.next_ns() : kNever_ns; }
+
+void Tcm2::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  ticks_.pass(effects_.slow_ppm(Instrument::compass, effects_.time_s(now_ns)));
+  // A device that samples faster than its line can carry leaves words out.
+  if (line_.free_ns() <= now_ns) send(now_ns, word(now_ns, settings_), out);
 }
 
-void Tcm2::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (next_event_ns() <= t_ns) {
-    if (!answers_.empty() && (!running_ || answers_.front().due_ns <= words_.next_ns())) {
-      Answer answer = std::move(answers_.front());
-      answers_.pop_front();
-      if (const auto* fields = std::get_if<Settings>(&answer.what)) answer.what = word(answer.due_ns, *fields);
-      line_.put(answer.due_ns, baud_, std::get<std::vector<std::uint8_t>>(std::move(answer.what)), out);
-      continue;
-    }
-    const std::int64_t sent_ns = words_.next_ns();
-    words_.pass(effects_.slow_ppm(Instrument::compass, effects_.time_s(sent_ns)));
-    // A device that samples faster than its line can carry leaves words out.
-    if (line_.free_ns() > sent_ns) continue;
-    line_.put(sent_ns, baud_, word(sent_ns, settings_), out);
-  }
-}
-
-void Tcm2::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) {
-    obey(t_ns, {reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size()});
-  });
-}
-
-void Tcm2::obey(std::int64_t t_ns, std::string_view line) {
-  const auto parsed = tcm2::parse_command(line);
+void Tcm2::obey(std::int64_t t_ns, const protocols::Frame& line) {
+  const auto parsed = tcm2::parse_command({reinterpret_cast<const char*>(line.bytes.data()), line.bytes.size()});
   if (const auto* refusal = std::get_if<tcm2::Refusal>(&parsed)) {
     tcm2::Reply reply;
     reply.kind = tcm2::Reply::Kind::refused;
     reply.error = refusal->error;
-    return answer(t_ns, reply);
+    return answer_with(t_ns, reply);
   }
   obey(t_ns, std::get<tcm2::Command>(parsed));
 }
@@ -129,7 +109,7 @@ void Tcm2::obey(std::int64_t t_ns, const tcm2::Command& command) {
       }
       break;
   }
-  answer(t_ns, reply);
+  answer_with(t_ns, reply);
 }
 
 std::uint32_t Tcm2::set(const tcm2::Command& command) {
@@ -157,14 +137,12 @@ std::uint32_t Tcm2::set(const tcm2::Command& command) {
   return 0;
 }
 
-void Tcm2::answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes) {
-  answers_.push_back({t_ns + kThinks_ns, std::move(bytes)});
+void Tcm2::answer_with(std::int64_t t_ns, const tcm2::Reply& reply) {
+  answer(t_ns + kThinks_ns, tcm2::encode_reply(reply));
 }
 
-void Tcm2::answer(std::int64_t t_ns, const tcm2::Reply& reply) { answer(t_ns, tcm2::encode_reply(reply)); }
-
 void Tcm2::answer_word(std::int64_t t_ns, const Settings& fields) {
-  answers_.push_back({t_ns + kThinks_ns + latency_ns(), fields});
+  answer(t_ns + kThinks_ns + latency_ns(), [this, fields](std::int64_t due_ns) { return word(due_ns, fields); });
 }
 
 std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
-#include <string_view>
-#include <variant>
-
 #include "protocols/tcm2_commands.h"
 #include "sim/instruments/device.h"
 #include "sim/instruments/tcm2_score.h"
@@ -15,7 +11,7 @@ namespace navcal::sim {
 /// TCM2 compass: words, command dialogue and built-in calibration of ICD section 1. At power-on it says its banner
 /// and waits for `go`; settings are those of the factory (all fields off but heading, pitch, roll, temperature),
 /// which a warm restart keeps and a loss of power does not. The line speed is kept through both.
-class Tcm2 final : public Device {
+class Tcm2 final : public CommandedDevice<protocols::tcm2::CommandParser> {
  public:
   struct Options {
     Tcm2Sensor::Options sensor;      ///< with the words' latency and rate
@@ -28,10 +24,6 @@ class Tcm2 final : public Device {
   Tcm2(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override;
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return baud_; }
 
  private:
   struct Settings {
@@ -40,19 +32,15 @@ class Tcm2 final : public Device {
     int divider = 1;
     double clock_Hz = 0;
   };
-  /// A line as it is, or a word of these fields, measured when it is due.
-  struct Answer {
-    std::int64_t due_ns;
-    std::variant<std::vector<std::uint8_t>, Settings> what;
-  };
-  void obey(std::int64_t t_ns, std::string_view line);
+  [[nodiscard]] std::int64_t next_act_ns() const override;
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   void obey(std::int64_t t_ns, const protocols::tcm2::Command& command);
   /// Empty when accepted, else the error of the refusal.
   std::uint32_t set(const protocols::tcm2::Command& command);
   void start(std::int64_t t_ns);
   void restart(std::int64_t t_ns);
-  void answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes);
-  void answer(std::int64_t t_ns, const protocols::tcm2::Reply& reply);
+  void answer_with(std::int64_t t_ns, const protocols::tcm2::Reply& reply);
   void answer_word(std::int64_t t_ns, const Settings& fields);
   [[nodiscard]] std::vector<std::uint8_t> word(std::int64_t t_ns, const Settings& fields);
   [[nodiscard]] double period_s() const;
@@ -63,14 +51,9 @@ class Tcm2 final : public Device {
   EffectSet& effects_;
   Tcm2Sensor sensor_;
   Tcm2Score score_;
-  Line line_;
-  protocols::tcm2::CommandParser parser_;
   Settings settings_;
-  Ticks words_;
-  std::deque<Answer> answers_;
   bool running_ = false;
   bool calibrating_ = false;
-  int baud_;
   int next_baud_;  ///< takes effect after a restart
   std::int64_t measured_ns_ = 0;
 };

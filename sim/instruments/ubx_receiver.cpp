@@ -24,45 +24,34 @@ bool is_sentence(ubx::MessageCode code) { return code >> 8 == 0xF0; }
 }  // namespace
 
 UbxReceiver::UbxReceiver(const Options& options, const Motion& motion)
-    : options_(options), receiver_(options.receiver, motion, options.seed) {}
+    : CommandedDevice(options.baud), options_(options), receiver_(options.receiver, motion, options.seed) {}
 
 std::int64_t UbxReceiver::latency_ns() const { return std::llround(options_.receiver.gps.timing.latency_s * 1e9); }
 
 void UbxReceiver::power_on(std::int64_t t_ns) {
   receiver_.power_on(t_ns);
-  parser_ = {};
+  forget();
   configuration_ = {};
-  answers_.clear();
   epoch_ns_ = (t_ns / base::kSecond_ns + 1) * base::kSecond_ns;
   epochs_ = 0;
   ever_fixed_ = false;
 }
 
-std::int64_t UbxReceiver::next_event_ns() const {
-  std::int64_t next_ns = epoch_ns_ + latency_ns();
-  for (const Answer& answer : answers_) next_ns = std::min(next_ns, answer.due_ns);
-  return next_ns;
-}
-
-void UbxReceiver::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) { obey(t_ns, frame); });
-}
-
-void UbxReceiver::obey(std::int64_t t_ns, const protocols::Frame& frame) {
-  const auto code = ubx::code_of(frame).value_or(0);
+void UbxReceiver::obey(std::int64_t t_ns, const protocols::Frame& command) {
+  const auto code = ubx::code_of(command).value_or(0);
   const std::int64_t due_ns = t_ns + kUbxReply_ns;
-  if (code == ubx::kMonVer) answers_.push_back({due_ns, version_message(options_.generation == Generation::nine)});
+  if (code == ubx::kMonVer) answer(due_ns, version_message(options_.generation == Generation::nine));
   if (code >> 8 != 0x06) return;
   bool accepted = false;
-  if (const auto values = ubx::decode_cfg_valset(frame.bytes)) {
+  if (const auto values = ubx::decode_cfg_valset(command.bytes)) {
     accepted = options_.generation == Generation::nine && set(*values);
-  } else if (const auto rate = ubx::decode_cfg_msg(frame.bytes)) {
+  } else if (const auto rate = ubx::decode_cfg_msg(command.bytes)) {
     accepted = set(*rate);
-  } else if (const auto epochs = ubx::decode_cfg_rate(frame.bytes)) {
+  } else if (const auto epochs = ubx::decode_cfg_rate(command.bytes)) {
     accepted = epochs->interval_ms >= 25;
     if (accepted) configuration_.interval_ns = epochs->interval_ms * base::kMillisecond_ns;
   }
-  answers_.push_back({due_ns, ubx::encode_acknowledgement({code, accepted})});
+  answer(due_ns, ubx::encode_acknowledgement({code, accepted}));
 }
 
 bool UbxReceiver::set(const ubx::ValueSet& values) {
@@ -116,34 +105,20 @@ std::vector<std::uint8_t> UbxReceiver::message(MessageCode code, const GpsReadin
   return sat_message(reading, epoch);
 }
 
-void UbxReceiver::send_epoch(std::vector<Emission>& out) {
-  const std::int64_t sent_ns = epoch_ns_ + latency_ns();
+void UbxReceiver::act(std::int64_t now_ns, std::vector<Emission>& out) {
   GpsReading reading = receiver_.measure(epoch_ns_ + options_.clock_error_ns);
   reading.utc_ns = epoch_ns_;
   ever_fixed_ = ever_fixed_ || reading.fixed;
   if (configuration_.nmea) {
-    line_.put(sent_ns, options_.baud, nmea_sentences(reading, {epoch_ns_, options_.leap_seconds, true}), out);
+    send(now_ns, nmea_sentences(reading, {epoch_ns_, options_.leap_seconds, true}), out);
   }
   for (const MessageCode code : kUbxMessages) {
     const auto wanted = configuration_.epochs.find(code);
     if (!configuration_.ubx || wanted == configuration_.epochs.end() || wanted->second == 0) continue;
-    if (epochs_ % wanted->second == 0) line_.put(sent_ns, options_.baud, message(code, reading), out);
+    if (epochs_ % wanted->second == 0) send(now_ns, message(code, reading), out);
   }
   ++epochs_;
   epoch_ns_ += configuration_.interval_ns;
-}
-
-void UbxReceiver::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (next_event_ns() <= t_ns) {
-    const auto answer = std::min_element(answers_.begin(), answers_.end(),
-                                         [](const Answer& a, const Answer& b) { return a.due_ns < b.due_ns; });
-    if (answer != answers_.end() && answer->due_ns <= epoch_ns_ + latency_ns()) {
-      line_.put(answer->due_ns, options_.baud, std::move(answer->bytes), out);
-      answers_.erase(answer);
-    } else {
-      send_epoch(out);
-    }
-  }
 }
 
 }  // namespace navcal::sim

@@ -13,7 +13,7 @@ namespace navcal::sim {
 /// u-blox receiver (ICD section 6). As delivered it sends NMEA at 1 Hz; it is configured by its host and forgets
 /// all of that with its power. Its epochs are those of its own clock, which is some microseconds off; NAV-PVT
 /// states that. It states the errors that its noise has.
-class UbxReceiver final : public Device {
+class UbxReceiver final : public CommandedDevice<protocols::ubx::Parser> {
  public:
   enum class Generation : std::uint8_t {
     six,    ///< has no NAV-PVT: refuses CFG-MSG for it
@@ -32,10 +32,6 @@ class UbxReceiver final : public Device {
   UbxReceiver(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override;
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
   using MessageCode = protocols::ubx::MessageCode;
@@ -46,24 +42,18 @@ class UbxReceiver final : public Device {
     std::int64_t interval_ns = 1'000'000'000;
     bool nmea = true, ubx = true;
   };
-  struct Answer {
-    std::int64_t due_ns = 0;
-    std::vector<std::uint8_t> bytes;
-  };
 
-  void obey(std::int64_t t_ns, const protocols::Frame& frame);
+  [[nodiscard]] std::int64_t next_act_ns() const override { return epoch_ns_ + latency_ns(); }
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   bool set(const protocols::ubx::ValueSet& values);
   bool set(const protocols::ubx::MessageRate& rate);
-  void send_epoch(std::vector<Emission>& out);
   [[nodiscard]] std::vector<std::uint8_t> message(MessageCode code, const GpsReading& reading) const;
   [[nodiscard]] std::int64_t latency_ns() const;
 
   Options options_;
   GpsReceiver receiver_;
-  Line line_;
-  protocols::ubx::Parser parser_;
   Configuration configuration_;
-  std::vector<Answer> answers_;
   std::int64_t epoch_ns_ = 0;  ///< the next one
   std::uint64_t epochs_ = 0;
   bool ever_fixed_ = false;

@@ -24,42 +24,36 @@ constexpr std::uint8_t kInvalidParameter = 7, kInvalidRegister = 8, kInsufficien
 }  // namespace
 
 VectorNav::VectorNav(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void VectorNav::power_on(std::int64_t t_ns) {
-  parser_ = {};
-  answers_.clear();
+  forget();
   electronics_.power_on(t_ns, motion_);
-  powered_ns_ = now_ns_ = t_ns;
+  powered_ns_ = t_ns;
   line_type_ = kYmr;
   line_rate_Hz_ = 40;
   output_ = "0,0,00";
   sends_binary_ = sends_errors_ = false;
-  restart_ticks(line_rate_Hz_);
+  restart_ticks(t_ns, line_rate_Hz_);
 }
 
-void VectorNav::restart_ticks(double rate_Hz) { ticks_ = Ticks(now_ns_, 1 / rate_Hz, options_.clock_ppm); }
-
-std::int64_t VectorNav::next_event_ns() const {
-  std::int64_t next_ns = sends_binary_ || line_type_ != 0 ? ticks_.next_ns() : kNever_ns;
-  for (const Answer& answer : answers_) next_ns = std::min(next_ns, answer.due_ns);
-  return next_ns;
+void VectorNav::restart_ticks(std::int64_t t_ns, double rate_Hz) {
+  ticks_ = Ticks(t_ns, 1 / rate_Hz, options_.clock_ppm);
 }
 
-void VectorNav::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
-  now_ns_ = std::max(now_ns_, t_ns);
-  parser_.feed(bytes, [&](const protocols::Frame& frame) { obey(t_ns, frame); });
+std::int64_t VectorNav::next_act_ns() const {
+  return sends_binary_ || line_type_ != 0 ? ticks_.next_ns() : kNever_ns;
 }
 
-void VectorNav::obey(std::int64_t t_ns, const protocols::Frame& frame) {
-  const auto command = vn::decode_register(frame.bytes);
-  if (!command) return;
-  const std::uint8_t error = command->write ? set(*command) : std::uint8_t{0};
-  const std::string value = value_of(command->number);
+void VectorNav::obey(std::int64_t t_ns, const protocols::Frame& command) {
+  const auto wanted = vn::decode_register(command.bytes);
+  if (!wanted) return;
+  const std::uint8_t error = wanted->write ? set(t_ns, *wanted) : std::uint8_t{0};
+  const std::string value = value_of(wanted->number);
   const bool known = !value.empty();
-  answers_.push_back({t_ns + kVnReply_ns, error != 0 ? vn::encode_error(error)
-                                          : known ? vn::encode_register({command->write, command->number, value})
-                                                  : vn::encode_error(kInvalidRegister)});
+  answer(t_ns + kVnReply_ns, error != 0 ? vn::encode_error(error)
+                             : known    ? vn::encode_register({wanted->write, wanted->number, value})
+                                        : vn::encode_error(kInvalidRegister));
 }
 
 std::string VectorNav::value_of(unsigned number) const {
@@ -73,8 +67,8 @@ std::string VectorNav::value_of(unsigned number) const {
   }
 }
 
-std::uint8_t VectorNav::set(const vn::Register& wanted) {
-  if (wanted.number == vn::kBinaryOutput1) return set_output(wanted.values);
+std::uint8_t VectorNav::set(std::int64_t t_ns, const vn::Register& wanted) {
+  if (wanted.number == vn::kBinaryOutput1) return set_output(t_ns, wanted.values);
   const auto value = protocols::integer<int>(wanted.values);
   if (wanted.number == vn::kAsyncType) {
     if (value != 0 && value != kYmr) return kInvalidParameter;
@@ -86,12 +80,12 @@ std::uint8_t VectorNav::set(const vn::Register& wanted) {
   } else {
     return kInvalidRegister;
   }
-  if (!sends_binary_) restart_ticks(line_rate_Hz_);
+  if (!sends_binary_) restart_ticks(t_ns, line_rate_Hz_);
   return 0;
 }
 
 /// Takes the two selections of fields that the start-up asks for.
-std::uint8_t VectorNav::set_output(const std::string& values) {
+std::uint8_t VectorNav::set_output(std::int64_t t_ns, const std::string& values) {
   if (options_.is_bare) return kInvalidRegister;
   const std::size_t first = values.find(','), second = values.find(',', first + 1);
   if (first == std::string::npos || second == std::string::npos) return kInvalidParameter;
@@ -107,12 +101,12 @@ std::uint8_t VectorNav::set_output(const std::string& values) {
   output_ = values;
   sends_binary_ = *port == options_.port || *port == 3;
   sends_errors_ = errors;
-  restart_ticks(sends_binary_ ? rate_Hz : line_rate_Hz_);
+  restart_ticks(t_ns, sends_binary_ ? rate_Hz : line_rate_Hz_);
   return 0;
 }
 
-vn::Reading VectorNav::measure() {
-  const std::int64_t t_ns = now_ns_ - std::llround(options_.timing.latency_s * 1e9);
+vn::Reading VectorNav::measure(std::int64_t sent_ns) {
+  const std::int64_t t_ns = sent_ns - std::llround(options_.timing.latency_s * 1e9);
   const State state = motion_.at(t_ns);
   const auto noisy = [this](Vector3 values, double noise) {
     for (double& value : values) value += noise_.normal(noise);
@@ -143,21 +137,10 @@ vn::Reading VectorNav::measure() {
   return reading;
 }
 
-void VectorNav::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  while (next_event_ns() <= t_ns) {
-    now_ns_ = std::max(now_ns_, next_event_ns());
-    const auto answer = std::min_element(answers_.begin(), answers_.end(),
-                                         [](const Answer& a, const Answer& b) { return a.due_ns < b.due_ns; });
-    if (answer != answers_.end() && answer->due_ns <= now_ns_) {
-      line_.put(answer->due_ns, options_.baud, std::move(answer->bytes), out);
-      answers_.erase(answer);
-      continue;
-    }
-    const vn::Reading reading = measure();
-    line_.put(now_ns_, options_.baud, sends_binary_ ? vn::encode_binary(reading) : vn::encode_line(reading), out);
-    ticks_.pass();
-  }
-  now_ns_ = std::max(now_ns_, t_ns);
+void VectorNav::act(std::int64_t now_ns, std::vector<Emission>& out) {
+  const vn::Reading reading = measure(now_ns);
+  send(now_ns, sends_binary_ ? vn::encode_binary(reading) : vn::encode_line(reading), out);
+  ticks_.pass();
 }
 
 }  // namespace navcal::sim

@@ -16,7 +16,7 @@ namespace navcal::sim {
 /// VectorNav VN-100 (ICD section 12). As delivered it sends lines VNYMR at 40 Hz; its registers are written by its
 /// host and forgotten with its power. Noise is white and that of its data sheet at this rate; the errors of its
 /// attitude are those that it states. Yaw is magnetic.
-class VectorNav final : public Device {
+class VectorNav final : public CommandedDevice<protocols::vectornav::Parser> {
  public:
   struct Options {
     devices::Timing timing = devices::usual_timing(protocols::Protocol::vectornav, 115200);
@@ -35,33 +35,23 @@ class VectorNav final : public Device {
   VectorNav(const Options& options, const Motion& motion);
 
   void power_on(std::int64_t t_ns) override;
-  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
-  [[nodiscard]] std::int64_t next_event_ns() const override;
-  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return options_.baud; }
 
  private:
-  struct Answer {
-    std::int64_t due_ns = 0;
-    std::vector<std::uint8_t> bytes;
-  };
-  void obey(std::int64_t t_ns, const protocols::Frame& frame);
+  [[nodiscard]] std::int64_t next_act_ns() const override;
+  void act(std::int64_t now_ns, std::vector<Emission>& out) override;
+  void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   [[nodiscard]] std::string value_of(unsigned number) const;
   /// 0 when it was carried out, else the code of the error.
-  std::uint8_t set(const protocols::vectornav::Register& wanted);
-  std::uint8_t set_output(const std::string& values);
-  void restart_ticks(double rate_Hz);
-  [[nodiscard]] protocols::vectornav::Reading measure();
+  std::uint8_t set(std::int64_t t_ns, const protocols::vectornav::Register& wanted);
+  std::uint8_t set_output(std::int64_t t_ns, const std::string& values);
+  void restart_ticks(std::int64_t t_ns, double rate_Hz);
+  [[nodiscard]] protocols::vectornav::Reading measure(std::int64_t sent_ns);
 
   Options options_;
   const Motion& motion_;
   Electronics electronics_;
   Noise noise_;
-  Line line_;
-  protocols::vectornav::Parser parser_;
-  std::vector<Answer> answers_;
-  std::int64_t powered_ns_ = 0, now_ns_ = 0;
-  Ticks ticks_;
+  std::int64_t powered_ns_ = 0;
   int line_type_ = 14, line_rate_Hz_ = 40;
   std::string output_ = "0,0,00";  ///< of register 75
   bool sends_binary_ = false, sends_errors_ = false;
