@@ -125,7 +125,7 @@ void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_n
   if (compass_calibration_) compass_calibration_->on_frame(frame, arrival_ns);
   if (start_up_) start_up_->on_frame(frame, arrival_ns);
   if (aid_) aid_->on_frame(frame, arrival_ns);
-  if (command_) command_->on_frame(frame);
+  if (command_) command_->on_frame(frame, arrival_ns);
 }
 
 std::string PortSession::calibrate_compass(std::int64_t now_ns) {

@@ -31,7 +31,7 @@ struct Step {
 };
 
 /// The bytes to send, step by step. The last step asks and is repeated.
-struct Script {
+struct Conversation {
   std::vector<Step> steps;
   int attempts = 1;
   Judge judge = nullptr;
@@ -100,35 +100,34 @@ std::optional<Outcome> defaults_set(const protocols::Frame& frame) {
 
 std::vector<std::uint8_t> bytes_of(tcm2::Verb verb) { return tcm2::encode_command({verb}); }
 
-Script restart_stream(const config::PortSettings& settings) {
-  const auto three_words_ns = settings.rate_Hz > 0 ? static_cast<std::int64_t>(3e9 / settings.rate_Hz) : 0;
+Conversation restart_stream(const config::PortSettings& settings) {
   return {{{bytes_of(tcm2::Verb::halt), kBetweenHalts_ns},
            {bytes_of(tcm2::Verb::halt), kSettle_ns},
-           {bytes_of(tcm2::Verb::go), std::max(kTcm2Stopped_ns, three_words_ns)}},
+           {bytes_of(tcm2::Verb::go), stopped_after_ns(settings.rate_Hz, kTcm2Stopped_ns)}},
           kAttempts,
           words_come};
 }
 
-Script calibration_score(const config::PortSettings& /*settings*/) {
+Conversation calibration_score(const config::PortSettings& /*settings*/) {
   return {{{bytes_of(tcm2::Verb::calibration_score), kReplyTimeout_ns}}, kAttempts, score};
 }
 
 // A second restart would undo what the first one began.
-Script restart(const config::PortSettings& /*settings*/) {
+Conversation restart(const config::PortSettings& /*settings*/) {
   return {{{bytes_of(tcm2::Verb::warm_restart), kBanner_ns}}, 1, banner};
 }
 
-Script receiver_id(const config::PortSettings& /*settings*/) {
+Conversation receiver_id(const config::PortSettings& /*settings*/) {
   return {{{oncore::encode_poll(oncore::kCj, 0), kReceiverAnswers_ns}}, 2, identification};
 }
 
-Script cold_start(const config::PortSettings& /*settings*/) {
+Conversation cold_start(const config::PortSettings& /*settings*/) {
   return {{{oncore::encode_poll(oncore::kCf, 0), kReceiverAnswers_ns}}, 1, defaults_set};
 }
 
 struct Entry {
   DeviceCommandName name;
-  Script (*script)(const config::PortSettings& settings) = nullptr;
+  Conversation (*conversation)(const config::PortSettings& settings) = nullptr;
 };
 
 constexpr Entry kTcm2Commands[] = {
@@ -150,37 +149,24 @@ std::span<const Entry> commands_of(Protocol protocol) {
 
 class ScriptedCommand final : public DeviceCommand {
  public:
-  ScriptedCommand(Script script, std::int64_t now_ns) : script_(std::move(script)), due_ns_(now_ns) {}
-
-  void on_frame(const protocols::Frame& frame) override {
-    // Before the question was asked, a frame is no answer to it.
-    if (!outcome_ && attempts_ > 0) outcome_ = script_.judge(frame);
+  ScriptedCommand(Conversation conversation, std::int64_t now_ns) : conversation_(std::move(conversation)) {
+    start_at(now_ns);
   }
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override {
-    if (outcome_ || now_ns < due_ns_) return std::nullopt;
-    const bool asks = step_ + 1 == script_.steps.size();
-    if (asks && attempts_ == script_.attempts) {
-      outcome_ = Outcome{false, "no answer"};
-      return std::nullopt;
-    }
-    const Step& step = script_.steps[step_];
-    due_ns_ = now_ns + step.wait_ns;
-    if (asks) {
-      ++attempts_;
-    } else {
-      ++step_;
-    }
-    return step.bytes;
-  }
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
-  [[nodiscard]] const std::optional<Outcome>& outcome() const override { return outcome_; }
 
  private:
-  Script script_;
-  std::size_t step_ = 0;
-  int attempts_ = 0;  ///< times that the last step was sent
-  std::int64_t due_ns_;
-  std::optional<Outcome> outcome_;
+  Script script() override {
+    for (std::size_t i = 0; i + 1 < conversation_.steps.size(); ++i)
+      co_await send(conversation_.steps[i].bytes, conversation_.steps[i].wait_ns);
+    const Step& question = conversation_.steps.back();
+    const bool answered = co_await ask(question.bytes, conversation_.attempts, question.wait_ns,
+                                       [this](const protocols::Frame& frame) {
+                                         outcome_ = conversation_.judge(frame);
+                                         return outcome_.has_value();
+                                       });
+    if (!answered) outcome_ = Outcome{false, "no answer"};
+  }
+
+  Conversation conversation_;
 };
 
 }  // namespace
@@ -194,7 +180,7 @@ std::vector<DeviceCommandName> device_commands(Protocol protocol) {
 std::unique_ptr<DeviceCommand> make_device_command(const config::PortSettings& settings, std::string_view name,
                                                    std::int64_t now_ns) {
   for (const Entry& entry : commands_of(settings.protocol)) {
-    if (entry.name.name == name) return std::make_unique<ScriptedCommand>(entry.script(settings), now_ns);
+    if (entry.name.name == name) return std::make_unique<ScriptedCommand>(entry.conversation(settings), now_ns);
   }
   return nullptr;
 }

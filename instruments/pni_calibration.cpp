@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/pni_calibration.h"
-
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
-#include "base/durations.h"
+#include "instruments/compass_calibration.h"
+#include "protocols/trax.h"
 
 namespace navcal::instruments {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 namespace trax = protocols::trax;
 using trax::FrameNumber;
 
-constexpr std::int64_t kNoDeadline_ns = std::numeric_limits<std::int64_t>::max();
+constexpr std::uint32_t kPoints = 12;
 constexpr std::int64_t kPniReply_ns = 500 * base::kMillisecond_ns;
 /// kSave writes flash memory; a score needs some arithmetic.
 constexpr std::int64_t kPniSaves_ns = 2 * base::kSecond_ns;
@@ -23,146 +23,119 @@ constexpr int kPniRepeats = 3;
 bool is_frame(const protocols::Frame& frame, FrameNumber number) {
   return frame.bytes.size() >= trax::kOverhead && frame.bytes[2] == static_cast<std::uint8_t>(number);
 }
+bool is_done(const protocols::Frame& frame) { return is_frame(frame, FrameNumber::set_config_done); }
+bool is_measurement(const protocols::Frame& frame) { return is_frame(frame, FrameNumber::data); }
+
+/// The user calibration of a PNI TRAX, TCM3 or Prime (ICD section 11): output stopped, twelve points with
+/// automatic sampling, kStartCal with limited tilt. The device answers kUserCalSampCount for each sample, and
+/// kUserCalScore after the last. It uses the result at once; save() lets it keep it (kSave).
+class PniCalibration final : public CompassCalibration {
+ public:
+  explicit PniCalibration(std::int64_t longest_ns) : longest_ns_(longest_ns) {}
+
+  [[nodiscard]] std::string_view name() const override { return "pni"; }
+  [[nodiscard]] std::string_view manoeuvre() const override {
+    return "turn slowly through all headings, with as much tilt as possible";
+  }
+  std::string save(std::int64_t now_ns) override {
+    if (busy()) return "it is under way: " + state();
+    if (!score_) return "there is no result that the compass could keep";
+    start_part(Part::saving, now_ns);
+    return {};
+  }
+  [[nodiscard]] std::vector<Figure> figures() const override {
+    if (!score_) return {};
+    return {{"magnetometer", score_->magnetometer},
+            {"accelerometer", score_->accelerometer},
+            {"distribution_error", score_->distribution_error},
+            {"tilt_error", score_->tilt_error},
+            {"tilt_range_deg", score_->tilt_range_deg}};
+  }
+
+ private:
+  Script script() override {
+    if (part_ == Part::saving) {
+      doing_ = "saving the result";
+      if (!co_await ask(trax::encode_frame(FrameNumber::save), kPniRepeats, kPniSaves_ns,
+                        [this](const protocols::Frame& frame) { return is_saved(frame); }))
+        fail("no answer to the order to save");
+      co_return;
+    }
+    if (part_ == Part::calibrating) {
+      doing_ = "preparing the compass";
+      co_await send(trax::encode_frame(FrameNumber::stop_continuous), kPniSettles_ns);
+      if (!co_await ask(trax::encode_setting(trax::Setting::calibration_points, kPoints), kPniRepeats,
+                        kPniReply_ns, is_done)) {
+        fail("no answer to the number of samples");
+      } else if (!co_await ask(trax::encode_setting(trax::Setting::automatic_sampling, 1), kPniRepeats,
+                               kPniReply_ns, is_done)) {
+        fail("no answer to automatic sampling");
+      } else {
+        may_calibrate_ = true;
+        turning_ = touched_ =
+            co_await ask(trax::encode_start_calibration(trax::Calibration::limited_tilt), kPniRepeats,
+                         kPniSaves_ns, [this](const protocols::Frame& frame) { return count(frame) || score_; });
+        if (!touched_) fail("no answer to the start of the calibration");
+        if (turning_ && !score_) {
+          const bool scored = co_await wait(longest_ns_, [this](const protocols::Frame& frame) {
+            count(frame);
+            return score_.has_value();
+          });
+          if (!scored)
+            fail(fmt::format("only {} of {} samples in {} minutes", samples_, kPoints,
+                             longest_ns_ / (60 * base::kSecond_ns)));
+        }
+        turning_ = false;
+      }
+      part_ = score_ ? Part::resuming : after_turning();
+    }
+    doing_ = "putting the compass back to service";
+    if (part_ == Part::closing) co_await send(trax::encode_frame(FrameNumber::stop_calibration), kPniSettles_ns);
+    part_ = Part::resuming;
+    // A device that is polled sends nothing; StartUp asks it, and sees a silence.
+    co_await ask(trax::encode_frame(FrameNumber::start_continuous), kPniRepeats, kPniSaves_ns, is_measurement);
+  }
+
+  /// Takes what the device says of its samples; true for their number.
+  bool count(const protocols::Frame& frame) {
+    const auto number = trax::decode_sample_count(frame.bytes);
+    if (number) samples_ = *number;
+    if (const auto score = trax::decode_score(frame.bytes)) score_ = *score;
+    return number.has_value();
+  }
+  bool is_saved(const protocols::Frame& frame) {
+    const auto saved = trax::decode_save_done(frame.bytes);
+    saved_ = saved.value_or(false);
+    if (saved && !saved_) fail("the compass could not save its result");
+    return saved.has_value();
+  }
+  void forget_results() override {
+    saved_ = false;
+    samples_ = 0;
+    score_.reset();
+  }
+  [[nodiscard]] std::string called_off() const override {
+    return fmt::format("called off after {} of {} samples", samples_, kPoints);
+  }
+  [[nodiscard]] std::string progress() const override {
+    return fmt::format("{} of {} samples", samples_, kPoints);
+  }
+  [[nodiscard]] std::string result() const override {
+    return fmt::format("score {:.2f}, distribution error {:.2f}, tilt error {:.2f}, tilt range {:.0f} deg; {}",
+                       score_->magnetometer, score_->distribution_error, score_->tilt_error,
+                       score_->tilt_range_deg, saved_ ? "saved" : "kept until the compass loses its power");
+  }
+
+  std::int64_t longest_ns_;
+  bool saved_ = false;
+  std::uint32_t samples_ = 0;
+  std::optional<trax::Score> score_;
+};
 
 }  // namespace
 
-void PniCalibration::enter(Phase phase, std::int64_t due_ns) {
-  phase_ = phase;
-  due_ns_ = due_ns;
-  attempts_ = 0;
-}
-
-void PniCalibration::begin(std::int64_t now_ns) {
-  touched_ = saved_ = false;
-  samples_ = 0;
-  score_.reset();
-  failure_.clear();
-  enter(Phase::halting, now_ns);
-}
-
-void PniCalibration::stop(std::int64_t now_ns) {
-  switch (phase_) {
-    case Phase::halting:
-    case Phase::points:
-    case Phase::sampling:
-    case Phase::starting:
-    case Phase::turning: return fail(fmt::format("called off after {} of {} samples", samples_, kPoints), now_ns);
-    default: break;
-  }
-}
-
-void PniCalibration::abandon(std::string reason) {
-  if (phase_ == Phase::idle) return;
-  if (failure_.empty() && !score_) failure_ = std::move(reason);
-  enter(Phase::idle, kNoDeadline_ns);
-}
-
-std::string PniCalibration::save(std::int64_t now_ns) {
-  if (busy()) return "it is under way: " + state();
-  if (!score_) return "there is no result that the compass could keep";
-  enter(Phase::saving, now_ns);
-  return {};
-}
-
-void PniCalibration::fail(std::string reason, std::int64_t now_ns) {
-  if (failure_.empty()) failure_ = std::move(reason);
-  const bool may_calibrate = phase_ == Phase::starting || phase_ == Phase::turning;
-  enter(may_calibrate ? Phase::stopping : Phase::resuming, now_ns);
-}
-
-void PniCalibration::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
-  const bool configures = phase_ == Phase::points || phase_ == Phase::sampling;
-  if (configures && attempts_ > 0 && is_frame(frame, FrameNumber::set_config_done)) {
-    enter(phase_ == Phase::points ? Phase::sampling : Phase::starting, now_ns);
-  } else if (const auto count = trax::decode_sample_count(frame.bytes)) {
-    if (phase_ == Phase::starting && attempts_ > 0) {
-      touched_ = true;
-      enter(Phase::turning, now_ns + longest_ns_);
-    }
-    if (phase_ == Phase::turning) samples_ = *count;
-  } else if (const auto score = trax::decode_score(frame.bytes)) {
-    if (phase_ != Phase::turning && phase_ != Phase::starting) return;
-    touched_ = true;
-    score_ = *score;
-    enter(Phase::resuming, now_ns);
-  } else if (phase_ == Phase::resuming && attempts_ > 0 && is_frame(frame, FrameNumber::data)) {
-    enter(Phase::idle, kNoDeadline_ns);
-  } else if (phase_ == Phase::saving && attempts_ > 0) {
-    if (const auto saved = trax::decode_save_done(frame.bytes)) {
-      saved_ = *saved;
-      if (!saved_) failure_ = "the compass could not save its result";
-      enter(Phase::idle, kNoDeadline_ns);
-    }
-  }
-}
-
-void PniCalibration::on_unanswered(std::int64_t now_ns) {
-  switch (phase_) {
-    case Phase::points: return fail("no answer to the number of samples", now_ns);
-    case Phase::sampling: return fail("no answer to automatic sampling", now_ns);
-    case Phase::starting: return fail("no answer to the start of the calibration", now_ns);
-    case Phase::saving: failure_ = "no answer to the order to save"; break;
-    default: break;  // a device that is polled sends nothing; StartUp asks it, and sees a silence
-  }
-  enter(Phase::idle, kNoDeadline_ns);
-}
-
-std::optional<std::vector<std::uint8_t>> PniCalibration::next(std::int64_t now_ns) {
-  if (now_ns < due_ns_) return std::nullopt;
-  if (phase_ == Phase::turning)
-    fail(fmt::format("only {} of {} samples in {} minutes", samples_, kPoints,
-                     longest_ns_ / (60 * base::kSecond_ns)),
-         now_ns);
-  if (attempts_ >= kPniRepeats) on_unanswered(now_ns);
-  const auto ask = [&](std::vector<std::uint8_t> bytes, std::int64_t patience_ns) {
-    ++attempts_;
-    due_ns_ = now_ns + patience_ns;
-    return bytes;
-  };
-  switch (phase_) {
-    case Phase::idle:
-    case Phase::turning: return std::nullopt;
-    case Phase::halting:
-      enter(Phase::points, now_ns + kPniSettles_ns);
-      return trax::encode_frame(FrameNumber::stop_continuous);
-    case Phase::points: return ask(trax::encode_setting(trax::Setting::calibration_points, kPoints), kPniReply_ns);
-    case Phase::sampling: return ask(trax::encode_setting(trax::Setting::automatic_sampling, 1), kPniReply_ns);
-    case Phase::starting:
-      return ask(trax::encode_start_calibration(trax::Calibration::limited_tilt), kPniSaves_ns);
-    case Phase::stopping:
-      enter(Phase::resuming, now_ns + kPniSettles_ns);
-      return trax::encode_frame(FrameNumber::stop_calibration);
-    case Phase::saving: return ask(trax::encode_frame(FrameNumber::save), kPniSaves_ns);
-    case Phase::resuming: break;
-  }
-  return ask(trax::encode_frame(FrameNumber::start_continuous), kPniSaves_ns);
-}
-
-std::vector<CompassCalibration::Figure> PniCalibration::figures() const {
-  if (!score_) return {};
-  return {{"magnetometer", score_->magnetometer},
-          {"accelerometer", score_->accelerometer},
-          {"distribution_error", score_->distribution_error},
-          {"tilt_error", score_->tilt_error},
-          {"tilt_range_deg", score_->tilt_range_deg}};
-}
-
-std::string PniCalibration::state() const {
-  std::string text;
-  switch (phase_) {
-    case Phase::idle:
-      if (!failure_.empty()) return "failed: " + failure_;
-      if (!score_) return "not begun";
-      return fmt::format("score {:.2f}, distribution error {:.2f}, tilt error {:.2f}, tilt range {:.0f} deg; {}",
-                         score_->magnetometer, score_->distribution_error, score_->tilt_error,
-                         score_->tilt_range_deg, saved_ ? "saved" : "kept until the compass loses its power");
-    case Phase::turning: return fmt::format("{} of {} samples", samples_, kPoints);
-    case Phase::saving: return "saving the result";
-    case Phase::stopping:
-    case Phase::resuming: text = "putting the compass back to service"; break;
-    default: text = "preparing the compass"; break;
-  }
-  return failure_.empty() ? text : text + "; failed: " + failure_;
+std::unique_ptr<CompassCalibration> calibrate_pni(std::int64_t longest_ns) {
+  return std::make_unique<PniCalibration>(longest_ns);
 }
 
 }  // namespace navcal::instruments

@@ -95,9 +95,7 @@ class StartUpMip final : public StartUp {
   bool is_reply(const protocols::Frame& frame, Step step, const std::vector<std::uint8_t>& sent);
   /// After a refusal; true: the step is to be tried again, with less.
   bool take_less(Step step);
-  [[nodiscard]] std::string remark() const override {
-    return in_service() || fruitless_ == 0 ? "" : "; attempt " + std::to_string(fruitless_ + 1);
-  }
+  [[nodiscard]] std::string remark() const override { return attempt(); }
   [[nodiscard]] std::vector<std::uint8_t> command(Step step) const;
   [[nodiscard]] std::vector<std::uint8_t> format(std::uint8_t set) const;
 

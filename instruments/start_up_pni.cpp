@@ -113,9 +113,7 @@ class StartUpPni final : public StartUp {
       polled = !in_service() && !polled;
     }
   }
-  [[nodiscard]] std::string remark() const override {
-    return in_service() || fruitless_ == 0 ? "" : "; attempt " + std::to_string(fruitless_ + 1);
-  }
+  [[nodiscard]] std::string remark() const override { return attempt(); }
 
   double rate_Hz_;
 };

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/tcm2_calibration.h"
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
-#include <utility>
+#include <optional>
 
 #include "base/angles.h"
-#include "base/durations.h"
+#include "instruments/compass_calibration.h"
 #include "instruments/tcm2_dialogue.h"
+#include "instruments/turn_count.h"
 #include "instruments/units.h"
-#include "protocols/decimal.h"
 #include "protocols/tcm2.h"
 #include "protocols/tcm2_commands.h"
+#include "protocols/tcm2_reply.h"
 
 namespace navcal::instruments {
 namespace {
@@ -20,235 +22,167 @@ namespace tcm2 = protocols::tcm2;
 using tcm2::Parameter;
 using tcm2::Verb;
 
-constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
+constexpr double kTurns_rad = 2 * 2 * std::numbers::pi;
 /// Longest gap between two gyro rates that is integrated over.
 constexpr std::int64_t kLongestRateGap_ns = 500 * base::kMillisecond_ns;
 
-tcm2::Command multipoint(char letter) { return tcm2::set(Parameter::multipoint_calibration, letter); }
+/// The TCM2's own calibration (ICD section 1): `h` twice, `cc`, `mpcal=e`, `go`. The vehicle then makes two
+/// slow turns with as much tilt as possible. At the end, or when the time for it is over: `h` twice, `mpcal=d`,
+/// which answers the score (otherwise `lc?` does), `go`.
+class Tcm2Calibration final : public CompassCalibration {
+ public:
+  Tcm2Calibration(const config::PortSettings& settings, std::int64_t longest_ns)
+      : heading_unit_(settings.compass.heading_unit), longest_ns_(longest_ns),
+        stopped_after_ns_(stopped_after_ns(settings.rate_Hz, kTcm2Stopped_ns)) {}
 
-std::string degrees(double angle_rad) { return std::to_string(std::lround(angle_rad / base::kRadiansPerDegree)); }
+  [[nodiscard]] std::string_view name() const override { return "tcm2"; }
+  [[nodiscard]] std::string_view manoeuvre() const override {
+    return "turn twice, slowly, with as much tilt as possible";
+  }
+  std::string save(std::int64_t) override {
+    return "the TCM2 applies its calibration itself: there is nothing to accept or to roll back";
+  }
+  /// Without a gyro, the compass that is being calibrated counts the turns.
+  void on_yaw_rate(double rate_rad_s, std::int64_t now_ns) override {
+    if (!turning_) return;
+    const std::int64_t since_ns = gyro_ns_ ? now_ns - *gyro_ns_ : 0;
+    gyro_ns_ = now_ns;
+    if (since_ns < kLongestRateGap_ns) gyro_angle_rad_ += rate_rad_s * static_cast<double>(since_ns) * 1e-9;
+    by_gyro_.add(gyro_angle_rad_);
+  }
+  [[nodiscard]] std::vector<Figure> figures() const override {
+    if (!score_) return {};
+    return {{"horizontal", static_cast<double>(score_->horizontal)},
+            {"vertical", static_cast<double>(score_->vertical)},
+            {"magnitude", score_->magnitude}};
+  }
 
-std::string text_of(const tcm2::CalibrationScore& score) {
-  tcm2::Reply reply;
-  reply.kind = tcm2::Reply::Kind::calibration;
-  reply.score = score;
-  const auto bytes = tcm2::encode_reply(reply);
-  return {bytes.begin(), bytes.end() - 2};  // without CR LF
-}
+ private:
+  Script script() override {
+    const auto is_word = [this](const protocols::Frame& frame) { return count_word(frame); };
+    if (part_ == Part::calibrating) {
+      doing_ = "preparing the compass";
+      co_await send(tcm2::encode_command({Verb::halt}), kBetweenHalts_ns);
+      co_await send(tcm2::encode_command({Verb::halt}), kSettle_ns);
+      touched_ = true;
+      asked_ = "cc";
+      if (!co_await ask(tcm2::encode_command({Verb::clear_calibration}), kAttempts, kReplyTimeout_ns, replies_))
+        fail("no answer to cc");
+      if (failure().empty()) {
+        may_calibrate_ = true;
+        asked_ = "mpcal=e";
+        if (!co_await ask(multipoint('e'), kAttempts, kReplyTimeout_ns, replies_)) fail("no answer to mpcal=e");
+      }
+      if (failure().empty()) {
+        if (!co_await ask(tcm2::encode_command({Verb::go}), kAttempts, stopped_after_ns_, is_word))
+          fail("no words came after go");
+        turning_ = failure().empty();
+      }
+      const std::int64_t ends_ns = now_ns() + longest_ns_;
+      while (turning_ && turned_rad() < kTurns_rad && now_ns() < ends_ns) {
+        if (!co_await wait(std::min(stopped_after_ns_, ends_ns - now_ns()), is_word) && now_ns() < ends_ns) {
+          fail("its words have stopped");
+          turning_ = false;
+        }
+      }
+      turning_ = false;
+      part_ = after_turning();
+    }
+    if (part_ == Part::closing) {
+      doing_ = "reading the score";
+      co_await send(tcm2::encode_command({Verb::halt}), kBetweenHalts_ns);
+      co_await send(tcm2::encode_command({Verb::halt}), kSettle_ns);
+      // Unanswered, the command may have been obeyed all the same: the score will show it.
+      asked_ = "mpcal=d";
+      co_await ask(multipoint('d'), kAttempts, kReplyTimeout_ns, replies_);
+      if (failure().empty() && !score_) {
+        asked_ = "lc?";
+        if (!co_await ask(tcm2::encode_command({Verb::calibration_score}), kAttempts, kReplyTimeout_ns, replies_))
+          fail("no answer to lc?");
+      }
+      part_ = Part::resuming;
+    }
+    doing_ = "putting the compass back to service";
+    // Of a silence, StartUp begins anew.
+    if (!co_await ask(tcm2::encode_command({Verb::go}), kAttempts, stopped_after_ns_, is_word))
+      fail("no words came after it");
+  }
+
+  /// A restarted device no longer calibrates and has forgotten the commands. Once the score is known, nothing is
+  /// lost.
+  void on_any_frame(const protocols::Frame& frame) override {
+    if (frame.id != tcm2::kBanner) return;
+    if (!score_) fail("the compass has restarted");
+    may_calibrate_ = false;
+    start_part(Part::resuming, now_ns() + kSettle_ns);
+  }
+
+  /// Whether a frame answers what was asked, rather than something before it.
+  bool is_reply(const protocols::Frame& frame) {
+    const auto reply = frame.id == tcm2::kReply ? tcm2::decode_reply(frame.bytes) : std::nullopt;
+    if (!reply) return false;
+    if (reply->kind == tcm2::Reply::Kind::refused) {
+      if (asked_ == "mpcal=e") may_calibrate_ = false;
+      fail(fmt::format("{} refused (E{:03X})", asked_, reply->error));
+      return true;
+    }
+    const bool is_score = reply->kind == tcm2::Reply::Kind::calibration;
+    if (reply->kind == tcm2::Reply::Kind::value &&
+        reply->parameter != tcm2::name_of(Parameter::multipoint_calibration))
+      return false;
+    if (part_ != Part::closing) return asked_ == "cc" || !is_score;
+    if (asked_ == "lc?" && !is_score) return false;
+    may_calibrate_ = false;
+    if (is_score && failure().empty()) score_ = reply->score;
+    return true;
+  }
+
+  bool count_word(const protocols::Frame& frame) {
+    if (frame.id == tcm2::kReply || frame.id == tcm2::kBanner) return false;
+    const auto word = frame.id == tcm2::kWord ? tcm2::decode_word(frame.bytes) : std::nullopt;
+    if (word && word->heading) by_compass_.add(radians_of(*word->heading, heading_unit_));
+    return true;
+  }
+  /// The gyro is preferred: the compass is calibrated because its headings are wrong.
+  [[nodiscard]] double turned_rad() const { return gyro_ns_ ? by_gyro_.turned_rad() : by_compass_.turned_rad(); }
+
+  void forget_results() override {
+    score_.reset();
+    by_compass_ = by_gyro_ = {};
+    gyro_ns_.reset();
+    gyro_angle_rad_ = 0;
+  }
+  [[nodiscard]] std::string called_off() const override { return turning_ ? "" : "called off"; }
+  [[nodiscard]] std::string progress() const override {
+    return fmt::format("turned {:.0f} of {:.0f} degrees", turned_rad() * base::kDegreesPerRadian,
+                       kTurns_rad * base::kDegreesPerRadian);
+  }
+  [[nodiscard]] std::string result() const override {
+    tcm2::Reply reply;
+    reply.kind = tcm2::Reply::Kind::calibration;
+    reply.score = *score_;
+    const auto bytes = tcm2::encode_reply(reply);
+    return "score " + std::string(bytes.begin(), bytes.end() - 2);  // without CR LF
+  }
+  static std::vector<std::uint8_t> multipoint(char letter) {
+    return tcm2::encode_command(tcm2::set(Parameter::multipoint_calibration, letter));
+  }
+
+  config::AngleUnit heading_unit_;
+  std::int64_t longest_ns_;
+  std::int64_t stopped_after_ns_;  ///< words are taken to have stopped after this time without one
+  const Answers replies_ = [this](const protocols::Frame& frame) { return is_reply(frame); };
+  std::string_view asked_;
+  TurnCount by_compass_, by_gyro_;
+  double gyro_angle_rad_ = 0;
+  std::optional<std::int64_t> gyro_ns_;  ///< of the newest rate
+  std::optional<tcm2::CalibrationScore> score_;
+};
 
 }  // namespace
 
-Tcm2Calibration::Tcm2Calibration(const config::PortSettings& settings, const Limits& limits)
-    : heading_unit_(settings.compass.heading_unit), limits_(limits), stopped_after_ns_(kTcm2Stopped_ns) {
-  if (settings.rate_Hz > 0) {
-    stopped_after_ns_ = std::max(kTcm2Stopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
-  }
-}
-
-void Tcm2Calibration::begin(std::int64_t now_ns) {
-  touched_ = calibrating_ = false;
-  score_.reset();
-  failure_.clear();
-  by_compass_ = by_gyro_ = {};
-  gyro_ns_.reset();
-  gyro_angle_rad_ = 0;
-  halt_then(Phase::clearing, now_ns);
-}
-
-void Tcm2Calibration::stop(std::int64_t now_ns) {
-  switch (phase_) {
-    case Phase::first_halt:
-    case Phase::second_halt:
-    case Phase::clearing:
-    case Phase::enabling:
-    case Phase::starting:
-      if (after_halts_ == Phase::clearing) fail("called off", now_ns);
-      break;
-    case Phase::turning: end_turning(now_ns); break;
-    case Phase::idle:
-    case Phase::closing:
-    case Phase::asking:
-    case Phase::resuming: break;
-  }
-}
-
-void Tcm2Calibration::abandon(std::string reason) {
-  if (phase_ == Phase::idle) return;
-  if (failure_.empty() && !score_) failure_ = std::move(reason);
-  enter(Phase::idle, kNever_ns);
-}
-
-void Tcm2Calibration::enter(Phase phase, std::int64_t due_ns) {
-  phase_ = phase;
-  due_ns_ = due_ns;
-  attempts_ = 0;
-}
-
-void Tcm2Calibration::halt_then(Phase phase, std::int64_t now_ns) {
-  after_halts_ = phase;
-  enter(Phase::first_halt, now_ns);
-}
-
-void Tcm2Calibration::end_turning(std::int64_t now_ns) { halt_then(Phase::closing, now_ns); }
-
-void Tcm2Calibration::fail(std::string reason, std::int64_t now_ns) {
-  if (failure_.empty()) failure_ = std::move(reason);
-  if (calibrating_ && after_halts_ != Phase::closing) {
-    halt_then(Phase::closing, now_ns);
-  } else {
-    enter(Phase::resuming, now_ns);
-  }
-}
-
-void Tcm2Calibration::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (phase_ == Phase::idle) return;
-  if (frame.id == tcm2::kBanner) {
-    // A restarted device no longer calibrates and has forgotten the commands. Once the score is known, nothing
-    // is lost.
-    calibrating_ = false;
-    if (!score_) fail("the compass has restarted", now_ns);
-    if (phase_ != Phase::resuming) enter(Phase::resuming, now_ns);
-    due_ns_ = now_ns + kSettle_ns;
-  } else if (frame.id == tcm2::kReply) {
-    if (const auto reply = tcm2::decode_reply(frame.bytes)) on_reply(*reply, now_ns);
-  } else {
-    on_word(frame, now_ns);
-  }
-}
-
-void Tcm2Calibration::on_reply(const tcm2::Reply& reply, std::int64_t now_ns) {
-  const bool awaited = attempts_ > 0 && (phase_ == Phase::clearing || phase_ == Phase::enabling ||
-                                         phase_ == Phase::closing || phase_ == Phase::asking);
-  if (!awaited) return;  // to a halt, to `go`, or late
-  if (reply.kind == tcm2::Reply::Kind::refused) {
-    std::string error;
-    protocols::append_hex(error, reply.error, 3);
-    const char* const what = phase_ == Phase::clearing   ? "cc"
-                             : phase_ == Phase::enabling ? "mpcal=e"
-                             : phase_ == Phase::closing  ? "mpcal=d"
-                                                         : "lc?";
-    if (phase_ == Phase::enabling) calibrating_ = false;
-    return fail(std::string(what) + " refused (E" + error + ")", now_ns);
-  }
-  if (reply.kind == tcm2::Reply::Kind::value &&
-      reply.parameter != tcm2::name_of(Parameter::multipoint_calibration)) {
-    return;  // late, to a setting
-  }
-  const bool is_score = reply.kind == tcm2::Reply::Kind::calibration;
-  switch (phase_) {
-    case Phase::clearing: enter(Phase::enabling, now_ns); break;
-    case Phase::enabling:
-      if (!is_score) enter(Phase::starting, now_ns);
-      break;
-    case Phase::closing:
-      calibrating_ = false;
-      if (!failure_.empty()) return enter(Phase::resuming, now_ns);
-      if (is_score) score_ = reply.score;
-      enter(is_score ? Phase::resuming : Phase::asking, now_ns);
-      break;
-    case Phase::asking:
-      if (!is_score) return;
-      score_ = reply.score;
-      enter(Phase::resuming, now_ns);
-      break;
-    default: break;
-  }
-}
-
-void Tcm2Calibration::on_word(const protocols::Frame& frame, std::int64_t now_ns) {
-  if (phase_ == Phase::resuming && attempts_ > 0) return enter(Phase::idle, kNever_ns);
-  if (phase_ == Phase::starting && attempts_ > 0) {
-    enter(Phase::turning, now_ns);
-    turning_ends_ns_ = now_ns + limits_.longest_ns;
-  }
-  if (phase_ != Phase::turning) return;
-  due_ns_ = std::min(now_ns + stopped_after_ns_, turning_ends_ns_);
-  const auto word = frame.id == tcm2::kWord ? tcm2::decode_word(frame.bytes) : std::nullopt;
-  if (word && word->heading) by_compass_.add(radians_of(*word->heading, heading_unit_));
-  if (turned_rad() >= limits_.turns * 2 * std::numbers::pi) end_turning(now_ns);
-}
-
-void Tcm2Calibration::on_yaw_rate(double rate_rad_s, std::int64_t now_ns) {
-  if (phase_ != Phase::turning) return;
-  const std::int64_t since_ns = gyro_ns_ ? now_ns - *gyro_ns_ : 0;
-  gyro_ns_ = now_ns;
-  if (since_ns < kLongestRateGap_ns) gyro_angle_rad_ += rate_rad_s * static_cast<double>(since_ns) * 1e-9;
-  by_gyro_.add(gyro_angle_rad_);
-}
-
-/// The gyro is preferred: the compass is calibrated because its headings are wrong.
-double Tcm2Calibration::turned_rad() const { return gyro_ns_ ? by_gyro_.turned_rad() : by_compass_.turned_rad(); }
-
-std::optional<std::vector<std::uint8_t>> Tcm2Calibration::next(std::int64_t now_ns) {
-  if (now_ns < due_ns_) return std::nullopt;
-  if (phase_ == Phase::turning) {
-    if (now_ns >= turning_ends_ns_) {
-      end_turning(now_ns);
-    } else {
-      fail("its words have stopped", now_ns);
-    }
-  }
-  if (attempts_ >= kAttempts) on_unanswered(now_ns);
-  const auto ask = [&](const tcm2::Command& command, std::int64_t patience_ns) {
-    ++attempts_;
-    due_ns_ = now_ns + patience_ns;
-    return tcm2::encode_command(command);
-  };
-  switch (phase_) {
-    case Phase::idle:
-    case Phase::turning: return std::nullopt;
-    case Phase::first_halt:
-      enter(Phase::second_halt, now_ns + kBetweenHalts_ns);
-      return tcm2::encode_command({Verb::halt});
-    case Phase::second_halt: enter(after_halts_, now_ns + kSettle_ns); return tcm2::encode_command({Verb::halt});
-    case Phase::clearing: touched_ = true; return ask({Verb::clear_calibration}, kReplyTimeout_ns);
-    case Phase::enabling: calibrating_ = true; return ask(multipoint('e'), kReplyTimeout_ns);
-    case Phase::closing: return ask(multipoint('d'), kReplyTimeout_ns);
-    case Phase::asking: return ask({Verb::calibration_score}, kReplyTimeout_ns);
-    case Phase::starting:
-    case Phase::resuming: break;
-  }
-  return ask({Verb::go}, stopped_after_ns_);
-}
-
-void Tcm2Calibration::on_unanswered(std::int64_t now_ns) {
-  switch (phase_) {
-    case Phase::clearing: return fail("no answer to cc", now_ns);
-    case Phase::enabling: return fail("no answer to mpcal=e", now_ns);
-    case Phase::starting: return fail("no words came after go", now_ns);
-    case Phase::closing:
-      // The command may have been obeyed all the same: the score will show it.
-      return enter(failure_.empty() ? Phase::asking : Phase::resuming, now_ns);
-    case Phase::asking: return fail("no answer to lc?", now_ns);
-    default: break;
-  }
-  // StartUp sees the silence and begins anew.
-  if (failure_.empty()) failure_ = "no words came after it";
-  enter(Phase::idle, kNever_ns);
-}
-
-std::vector<CompassCalibration::Figure> Tcm2Calibration::figures() const {
-  if (!score_) return {};
-  return {{"horizontal", static_cast<double>(score_->horizontal)},
-          {"vertical", static_cast<double>(score_->vertical)},
-          {"magnitude", score_->magnitude}};
-}
-
-std::string Tcm2Calibration::state() const {
-  std::string text;
-  switch (phase_) {
-    case Phase::idle:
-      if (!failure_.empty()) return "failed: " + failure_;
-      return score_ ? "score " + text_of(*score_) : "not begun";
-    case Phase::turning:
-      return "turned " + degrees(turned_rad()) + " of " + degrees(limits_.turns * 2 * std::numbers::pi) +
-             " degrees";
-    case Phase::closing:
-    case Phase::asking: text = "reading the score"; break;
-    case Phase::resuming: text = "putting the compass back to service"; break;
-    default: text = after_halts_ == Phase::closing ? "reading the score" : "preparing the compass"; break;
-  }
-  return failure_.empty() ? text : text + "; failed: " + failure_;
+std::unique_ptr<CompassCalibration> calibrate_tcm2(const config::PortSettings& settings, std::int64_t longest_ns) {
+  return std::make_unique<Tcm2Calibration>(settings, longest_ns);
 }
 
 }  // namespace navcal::instruments

@@ -42,7 +42,7 @@ struct Talk {
   }
   void frame(std::string_view id, std::string_view bytes) const {
     command->on_frame(
-        {protocols::FrameId(id), 0, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}});
+        {protocols::FrameId(id), 0, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}}, now_ns);
   }
   void answer(std::string_view id, std::string_view bytes) {
     coming_id = id;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/durations.h"
-#include "instruments/pni_calibration.h"
+#include "instruments/compass_calibration.h"
 #include "instruments/start_up.h"
 #include "protocols/trax.h"
 #include "sim/instruments/pni_unit.h"
@@ -74,7 +74,8 @@ class PniBench {
 
   TurningCompass motion;
   std::unique_ptr<StartUp> start_up;
-  PniCalibration calibration{120 * base::kSecond_ns};
+  std::unique_ptr<CompassCalibration> made = calibrate_pni(120 * base::kSecond_ns);
+  CompassCalibration& calibration = *made;
   std::vector<Sent> sent;
   bool hears = true;
   std::function<bool(std::string_view)> passes = [](std::string_view) { return true; };

@@ -33,8 +33,9 @@ sim::State Turning::at(std::int64_t t_ns) const {
   return state;
 }
 
-Tcm2CalibrationBench::Tcm2CalibrationBench(double rate_deg_s, const Tcm2Calibration::Limits& limits)
-    : dialogue(calibrated_compass(), limits), motion_(rate_deg_s), device_(in_service(), motion_) {
+Tcm2CalibrationBench::Tcm2CalibrationBench(double rate_deg_s, std::int64_t longest_ns)
+    : made(make_compass_calibration(calibrated_compass(), longest_ns)), motion_(rate_deg_s),
+      device_(in_service(), motion_) {
   device_.power_on(now_ns);
   run_for(base::kSecond_ns);  // its banner, and the first words
 }

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "base/durations.h"
-#include "instruments/tcm2_calibration.h"
+#include "instruments/compass_calibration.h"
+#include "instruments/turn_count.h"
 #include "protocols/tcm2.h"
 #include "sim/instruments/tcm2.h"
 
@@ -25,7 +26,7 @@ class Turning final : public sim::Motion {
 
 class Tcm2CalibrationBench {
  public:
-  explicit Tcm2CalibrationBench(double rate_deg_s = 6, const Tcm2Calibration::Limits& limits = {});
+  explicit Tcm2CalibrationBench(double rate_deg_s = 6, std::int64_t longest_ns = 600 * base::kSecond_ns);
 
   /// Runs to the end of the dialogue, or for so long. `each` is called every millisecond.
   void run_for(
@@ -35,7 +36,14 @@ class Tcm2CalibrationBench {
   /// Words that came in the last second of the run.
   [[nodiscard]] bool words_flow();
 
-  Tcm2Calibration dialogue;
+  /// Of the score that the compass gave itself.
+  [[nodiscard]] std::optional<double> horizontal() const {
+    const auto figures = dialogue.figures();
+    return figures.empty() ? std::nullopt : std::optional(figures.front().value);
+  }
+
+  std::unique_ptr<CompassCalibration> made;
+  CompassCalibration& dialogue = *made;
   std::int64_t now_ns = 1'764'000'000 * base::kSecond_ns;
   std::vector<std::string> sent;
   /// Whether a command gets through, and a line of the device's; by default all do.

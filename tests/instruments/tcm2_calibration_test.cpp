@@ -27,8 +27,8 @@ TEST(Tcm2Calibration, TwoTurnsAndTheScore) {
   EXPECT_EQ(bench.transcript(), kWhole);
   const double took_s = static_cast<double>(bench.now_ns - began_ns) * 1e-9;
   EXPECT_NEAR(took_s, 120, 5) << "720 degrees at 6 degrees a second";
-  ASSERT_TRUE(bench.dialogue.score());
-  EXPECT_EQ(bench.dialogue.score()->horizontal, 9);
+  ASSERT_TRUE(bench.horizontal());
+  EXPECT_EQ(bench.horizontal(), 9);
   EXPECT_EQ(bench.dialogue.state(), "score H9V9M0.05");
   EXPECT_TRUE(bench.words_flow());
 }
@@ -57,7 +57,7 @@ TEST(Tcm2Calibration, TheGyroGoesBeforeTheCompass) {
       bench.dialogue.on_yaw_rate(-0.6283, bench.now_ns);  // 36 deg/s
   });
   EXPECT_NEAR(static_cast<double>(bench.now_ns - turning_ns) * 1e-9, 20, 2);
-  EXPECT_TRUE(bench.dialogue.score());
+  EXPECT_TRUE(bench.horizontal());
 }
 
 TEST(Tcm2Calibration, TheOperatorMayEndItSooner) {
@@ -67,8 +67,8 @@ TEST(Tcm2Calibration, TheOperatorMayEndItSooner) {
   bench.dialogue.stop(bench.now_ns);
   bench.run_for(5 * base::kSecond_ns);
   EXPECT_EQ(bench.transcript(), kWhole);
-  ASSERT_TRUE(bench.dialogue.score());
-  EXPECT_LT(bench.dialogue.score()->horizontal, 9) << "180 degrees";
+  ASSERT_TRUE(bench.horizontal());
+  EXPECT_LT(bench.horizontal(), 9) << "180 degrees";
   EXPECT_TRUE(bench.words_flow());
 }
 
@@ -84,12 +84,12 @@ TEST(Tcm2Calibration, CalledOffBeforeItTurned) {
 }
 
 TEST(Tcm2Calibration, AVehicleThatDoesNotTurnEndsByTime) {
-  Tcm2CalibrationBench bench(0, {.turns = 2, .longest_ns = 20 * base::kSecond_ns});
+  Tcm2CalibrationBench bench(0, 20 * base::kSecond_ns);
   bench.dialogue.begin(bench.now_ns);
   bench.run_for(60 * base::kSecond_ns);
   EXPECT_EQ(bench.transcript(), kWhole);
-  ASSERT_TRUE(bench.dialogue.score());
-  EXPECT_EQ(bench.dialogue.score()->horizontal, 0);
+  ASSERT_TRUE(bench.horizontal());
+  EXPECT_EQ(bench.horizontal(), 0);
 }
 
 TEST(Tcm2Calibration, MayBeHeldAgain) {
@@ -99,7 +99,7 @@ TEST(Tcm2Calibration, MayBeHeldAgain) {
     bench.dialogue.begin(bench.now_ns);
     bench.run_for(60 * base::kSecond_ns);
     EXPECT_EQ(bench.transcript(), kWhole);
-    EXPECT_TRUE(bench.dialogue.score());
+    EXPECT_TRUE(bench.horizontal());
   }
 }
 

@@ -23,8 +23,8 @@ TEST(Tcm2CalibrationTrouble, AnyOneCommandMayBeLost) {
     bench.dialogue.begin(bench.now_ns);
     bench.run_for(60 * base::kSecond_ns);
     EXPECT_FALSE(first) << lost;
-    ASSERT_TRUE(bench.dialogue.score()) << lost << ": " << bench.dialogue.state();
-    EXPECT_EQ(bench.dialogue.score()->horizontal, 9) << lost;
+    ASSERT_TRUE(bench.horizontal()) << lost << ": " << bench.dialogue.state();
+    EXPECT_EQ(bench.horizontal(), 9) << lost;
     EXPECT_TRUE(bench.words_flow()) << lost;
   }
 }
@@ -36,7 +36,7 @@ TEST(Tcm2CalibrationTrouble, AnyOneReplyMayBeLost) {
     bench.line_passes = [&](const std::string& line) { return is_word(line) || replies++ != lost; };
     bench.dialogue.begin(bench.now_ns);
     bench.run_for(60 * base::kSecond_ns);
-    EXPECT_TRUE(bench.dialogue.score()) << lost << ": " << bench.dialogue.state();
+    EXPECT_TRUE(bench.horizontal()) << lost << ": " << bench.dialogue.state();
     EXPECT_TRUE(bench.words_flow()) << lost;
   }
 }
@@ -48,8 +48,8 @@ TEST(Tcm2CalibrationTrouble, ALostScoreIsAskedForAgain) {
   bench.dialogue.begin(bench.now_ns);
   bench.run_for(60 * base::kSecond_ns);
   EXPECT_EQ(bench.transcript(), "h h cc mpcal=e go h h mpcal=d mpcal=d lc? go ");
-  ASSERT_TRUE(bench.dialogue.score());
-  EXPECT_EQ(bench.dialogue.score()->horizontal, 9);
+  ASSERT_TRUE(bench.horizontal());
+  EXPECT_EQ(bench.horizontal(), 9);
 }
 
 TEST(Tcm2CalibrationTrouble, ADeviceThatNeverRepliesIsPutBackToService) {
@@ -93,7 +93,7 @@ TEST(Tcm2CalibrationTrouble, ARefusalEndsIt) {
     bench.run_for(60 * base::kSecond_ns);
     EXPECT_EQ(bench.transcript(), transcript);
     EXPECT_EQ(bench.dialogue.state(), "failed: " + command + " refused (E010)");
-    EXPECT_FALSE(bench.dialogue.score());
+    EXPECT_FALSE(bench.horizontal());
     EXPECT_TRUE(bench.words_flow()) << command;
   }
 }
@@ -103,8 +103,8 @@ TEST(Tcm2CalibrationTrouble, LateAnswersAreNotTakenForOthers) {
   bench.delay_ns = 650 * base::kMillisecond_ns;  // after the command was repeated
   bench.dialogue.begin(bench.now_ns);
   bench.run_for(120 * base::kSecond_ns);
-  ASSERT_TRUE(bench.dialogue.score()) << bench.dialogue.state() << ": " << bench.transcript();
-  EXPECT_EQ(bench.dialogue.score()->horizontal, 9) << "not the score that cc answers";
+  ASSERT_TRUE(bench.horizontal()) << bench.dialogue.state() << ": " << bench.transcript();
+  EXPECT_EQ(bench.horizontal(), 9) << "not the score that cc answers";
   EXPECT_TRUE(bench.words_flow());
 }
 
@@ -140,7 +140,7 @@ TEST(Tcm2CalibrationTrouble, ADeviceThatIsUnpluggedEndsItAtAnyTimeAndItCanBeginA
     bench.dialogue.begin(bench.now_ns);
     bench.run_for(at_ms * base::kMillisecond_ns);
     if (!bench.dialogue.busy()) continue;
-    const bool had_score = bench.dialogue.score().has_value();
+    const bool had_score = bench.horizontal().has_value();
     const auto commands = bench.sent.size();
     bench.dialogue.abandon("the compass went away");
     EXPECT_FALSE(bench.dialogue.busy()) << at_ms;
@@ -152,7 +152,7 @@ TEST(Tcm2CalibrationTrouble, ADeviceThatIsUnpluggedEndsItAtAnyTimeAndItCanBeginA
     bench.run_for(2 * base::kSecond_ns);  // its banner
     bench.dialogue.begin(bench.now_ns);
     bench.run_for(60 * base::kSecond_ns);
-    ASSERT_TRUE(bench.dialogue.score()) << at_ms << ": " << bench.dialogue.state();
+    ASSERT_TRUE(bench.horizontal()) << at_ms << ": " << bench.dialogue.state();
     EXPECT_TRUE(bench.words_flow()) << at_ms;
   }
 }

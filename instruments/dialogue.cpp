@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/start_up.h"
+#include "instruments/dialogue.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "instruments/start_up.h"
+
 namespace navcal::instruments {
 
-void StartUp::begin(std::int64_t now_ns) {
-  now_ns_ = now_ns;
-  fruitless_ = 0;
-  start_at(now_ns);
-}
-
-void StartUp::start_at(std::int64_t when_ns) {
+void Dialogue::start_at(std::int64_t when_ns) {
+  now_ns_ = when_ns;
   script_.reset();
   script_.reset(script().handle);
   due_ns_ = when_ns;
 }
 
-void StartUp::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
+void Dialogue::end() {
+  script_.reset();
+  due_ns_ = std::numeric_limits<std::int64_t>::max();
+}
+
+void Dialogue::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
   if (!script_) return;
   now_ns_ = now_ns;
   on_any_frame(frame);
   if (listening_ && answers_ && answers_(frame)) go_on(true);
 }
 
-std::optional<std::vector<std::uint8_t>> StartUp::next(std::int64_t now_ns) {
+std::optional<std::vector<std::uint8_t>> Dialogue::next(std::int64_t now_ns) {
   if (now_ns < due_ns_) return std::nullopt;
   now_ns_ = now_ns;
   while (attempts_left_ == 0) {
@@ -38,13 +40,14 @@ std::optional<std::vector<std::uint8_t>> StartUp::next(std::int64_t now_ns) {
   return command_;
 }
 
-void StartUp::go_on(bool answered) {
+void Dialogue::go_on(bool answered) {
   answered_ = answered;
   script_.get().resume();
+  if (script_.get().done()) end();
 }
 
-StartUp::Wait StartUp::ask(std::vector<std::uint8_t> command, int attempts, std::int64_t patience_ns,
-                           Answers answers) {
+Dialogue::Wait Dialogue::ask(std::vector<std::uint8_t> command, int attempts, std::int64_t patience_ns,
+                             Answers answers) {
   command_ = std::move(command);
   attempts_left_ = attempts;
   patience_ns_ = patience_ns;
@@ -52,11 +55,6 @@ StartUp::Wait StartUp::ask(std::vector<std::uint8_t> command, int attempts, std:
   listening_ = attempts == 0;
   due_ns_ = listening_ ? now_ns_ + patience_ns : now_ns_;
   return {answered_};
-}
-
-void StartUp::enter(std::string phase, bool in_service) {
-  text_ = std::move(phase);
-  in_service_ = in_service;
 }
 
 std::string StartUp::state() const {
