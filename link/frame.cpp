@@ -6,7 +6,7 @@
 #include <boost/crc.hpp>
 #include <string_view>
 
-#include "protocols/big_endian.h"
+#include "protocols/wire_fields.h"
 
 namespace navcal::link {
 namespace {
@@ -45,7 +45,8 @@ protocols::Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* las
   const std::size_t body = kHeaderLength + first[kLength] + tag;
   const std::size_t length = body + kCrcLength;
   if (available < length) return Scan::incomplete(length - available);
-  if (crc32({first + kKind, body - kKind}) != protocols::read_u32(first + body)) return Scan::bad_checksum();
+  if (crc32({first + kKind, body - kKind}) != protocols::get_be<std::uint32_t>(first + body))
+    return Scan::bad_checksum();
   return Scan::frame(length, protocols::FrameId(kFrameNames.at(first[kKind] & 0x0FU)));
 }
 
@@ -57,8 +58,8 @@ std::optional<FrameView> view_frame(Bytes frame) {
   const std::uint8_t* const p = frame.data();
   view.header.type = static_cast<FrameType>(p[kKind] & 0x0F);
   view.header.is_tagged = (p[kKind] & kTagged) != 0;
-  view.header.session = protocols::read_u16(p + kSession);
-  view.header.counter = protocols::read_u32(p + kCounter);
+  view.header.session = protocols::get_be<std::uint16_t>(p + kSession);
+  view.header.counter = protocols::get_be<std::uint32_t>(p + kCounter);
   view.payload = frame.subspan(kHeaderLength, p[kLength]);
   const std::size_t body = kHeaderLength + view.payload.size();
   view.covered = frame.subspan(kKind, body - kKind);

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "protocols/decimal.h"
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"
 
@@ -121,15 +122,13 @@ inline constexpr auto kHexValue = [] {
 
 /// `$` + body + `*hh<CR><LF>`, checksum in upper case.
 [[nodiscard]] inline std::vector<std::uint8_t> checked_line(std::string_view body) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
   const std::uint8_t sum = xor_of({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()});
   std::string line;
   line.reserve(body.size() + 6);
   line += '$';
   line += body;
   line += '*';
-  line += kDigits[sum >> 4];
-  line += kDigits[sum & 0x0F];
+  append_hex(line, sum, 2);
   line += "\r\n";
   return {line.begin(), line.end()};
 }

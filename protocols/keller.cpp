@@ -30,9 +30,7 @@ Scan scan_shapes(const std::uint8_t* first, std::size_t available, std::initiali
 }
 
 std::vector<std::uint8_t> summed(std::vector<std::uint8_t> frame) {
-  const std::uint16_t crc = crc16_modbus(frame);
-  frame.push_back(static_cast<std::uint8_t>(crc >> 8));
-  frame.push_back(static_cast<std::uint8_t>(crc));
+  append_be(frame, crc16_modbus(frame));
   return frame;
 }
 

@@ -129,12 +129,6 @@ Reading read_field(std::uint8_t descriptor, Bytes data, Packet& packet) {
   return Reading::unknown;
 }
 
-template <WireNumber T>
-void append_be(std::vector<std::uint8_t>& data, T value) {
-  data.resize(data.size() + sizeof(T));
-  put_be(&data[data.size() - sizeof(T)], value);
-}
-
 template <WireNumber... T>
 Field field_of(std::uint8_t descriptor, T... values) {
   Field field{descriptor, {}};

@@ -11,11 +11,6 @@ constexpr std::uint8_t kAnswer = 0xF1;
 constexpr std::uint8_t kSensorRateAnswer = 0x83, kFilterRateAnswer = 0x8A, kRateAnswer = 0x8E;
 constexpr std::uint8_t kSensorSelector = 1, kFilterSelector = 3;
 
-void append_u16(std::vector<std::uint8_t>& data, std::uint16_t value) {
-  data.resize(data.size() + 2);
-  put_be(&data[data.size() - 2], value);
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encode_base_rate_request(std::uint8_t set, bool by_set) {
@@ -29,7 +24,7 @@ std::vector<std::uint8_t> encode_format_by_set(std::uint8_t set, const std::vect
               {kWriteSetting, static_cast<std::uint8_t>(rates.size())}};
   for (const FieldRate& rate : rates) {
     field.data.push_back(rate.descriptor);
-    append_u16(field.data, rate.decimation);
+    append_be(field.data, rate.decimation);
   }
   return encode_fields(k3dmSet, {field});
 }
@@ -51,7 +46,7 @@ std::vector<std::uint8_t> encode_base_rate(const Reply& reply, const BaseRate& r
     case command_3dm::kFilterBaseRate: field.descriptor = kFilterRateAnswer; break;
     default: field = {kRateAnswer, {rate.set}}; break;
   }
-  append_u16(field.data, rate.rate_Hz);
+  append_be(field.data, rate.rate_Hz);
   return encode_fields(k3dmSet, {{kAnswer, {reply.command, reply.error}}, field});
 }
 

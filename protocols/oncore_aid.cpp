@@ -5,11 +5,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "protocols/big_endian.h"
 #include "protocols/oncore_command.h"
 #include "protocols/oncore_encode.h"
 #include "protocols/units.h"
 #include "protocols/utc.h"
+#include "protocols/wire_fields.h"
 
 namespace navcal::protocols::oncore {
 namespace {
@@ -17,10 +17,8 @@ namespace {
 constexpr double kMostLatitude_deg = 90, kMostLongitude_deg = 180, kLeastHeight_m = -1000, kMostHeight_m = 18'000;
 constexpr std::uint8_t kGpsHeight = 0;  // the height is above the ellipsoid
 
-void append_u32(std::vector<std::uint8_t>& data, double value, double least, double most, double per_unit) {
-  const auto raw = static_cast<std::uint32_t>(
-      static_cast<std::int32_t>(std::lround(std::clamp(value, least, most) * per_unit)));
-  for (const int shift : {24, 16, 8, 0}) data.push_back(static_cast<std::uint8_t>(raw >> shift));
+void append_i32(std::vector<std::uint8_t>& data, double value, double least, double most, double per_unit) {
+  append_be(data, static_cast<std::int32_t>(std::lround(std::clamp(value, least, most) * per_unit)));
 }
 
 bool is_command(Bytes frame, FrameId id, std::size_t length) {
@@ -33,9 +31,9 @@ bool is_command(Bytes frame, FrameId id, std::size_t length) {
 
 std::vector<std::uint8_t> encode_aid_position(const AidPosition& position) {
   std::vector<std::uint8_t> data;
-  append_u32(data, position.latitude_deg, -kMostLatitude_deg, kMostLatitude_deg, kMilliarcsecondsPerDegree);
-  append_u32(data, position.longitude_deg, -kMostLongitude_deg, kMostLongitude_deg, kMilliarcsecondsPerDegree);
-  append_u32(data, position.height_m, kLeastHeight_m, kMostHeight_m, 100);
+  append_i32(data, position.latitude_deg, -kMostLatitude_deg, kMostLatitude_deg, kMilliarcsecondsPerDegree);
+  append_i32(data, position.longitude_deg, -kMostLongitude_deg, kMostLongitude_deg, kMilliarcsecondsPerDegree);
+  append_i32(data, position.height_m, kLeastHeight_m, kMostHeight_m, 100);
   data.push_back(kGpsHeight);
   return encode_frame(kGa, data);
 }
@@ -63,8 +61,9 @@ std::vector<std::uint8_t> encode_aid_time(std::int64_t utc_ns) {
 
 std::optional<AidPosition> parse_aid_position(Bytes frame) {
   if (!is_command(frame, kGa, kGaLength)) return std::nullopt;
-  const AidPosition position{read_i32(&frame[4]) / kMilliarcsecondsPerDegree,
-                             read_i32(&frame[8]) / kMilliarcsecondsPerDegree, read_i32(&frame[12]) / 100.0};
+  const AidPosition position{get_be<std::int32_t>(&frame[4]) / kMilliarcsecondsPerDegree,
+                             get_be<std::int32_t>(&frame[8]) / kMilliarcsecondsPerDegree,
+                             get_be<std::int32_t>(&frame[12]) / 100.0};
   const bool in_range = std::abs(position.latitude_deg) <= kMostLatitude_deg &&
                         std::abs(position.longitude_deg) <= kMostLongitude_deg &&
                         position.height_m >= kLeastHeight_m && position.height_m <= kMostHeight_m;
@@ -74,7 +73,7 @@ std::optional<AidPosition> parse_aid_position(Bytes frame) {
 
 std::optional<std::int64_t> parse_aid_time(Bytes frame) {
   if (!is_command(frame, kGb, kGbLength)) return std::nullopt;
-  const Date date{read_u16(&frame[6]), frame[4], frame[5]};
+  const Date date{get_be<std::uint16_t>(&frame[6]), frame[4], frame[5]};
   const TimeOfDay time{frame[8], frame[9], frame[10], 0};
   const bool is_utc = frame[11] == 0 && frame[12] == 0 && frame[13] == 0;
   if (!is_utc || !is_valid(date) || !is_valid(time)) return std::nullopt;

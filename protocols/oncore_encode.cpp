@@ -7,6 +7,7 @@
 #include "protocols/checked_line.h"
 #include "protocols/oncore.h"
 #include "protocols/units.h"
+#include "protocols/wire_fields.h"
 
 namespace navcal::protocols::oncore {
 namespace {
@@ -16,14 +17,8 @@ class Data {
   explicit Data(FrameId id) : id_(id) { bytes_.reserve(kMaxLength); }
 
   void u8(std::uint8_t value) { bytes_.push_back(value); }
-  void u16(std::uint16_t value) {
-    u8(static_cast<std::uint8_t>(value >> 8));
-    u8(static_cast<std::uint8_t>(value));
-  }
-  void u32(std::uint32_t value) {
-    u16(static_cast<std::uint16_t>(value >> 16));
-    u16(static_cast<std::uint16_t>(value));
-  }
+  void u16(std::uint16_t value) { append_be(bytes_, value); }
+  void u32(std::uint32_t value) { append_be(bytes_, value); }
   void scaled_u16(double value, double per_unit) {
     u16(static_cast<std::uint16_t>(std::clamp(std::lround(value * per_unit), 0L, 65535L)));
   }

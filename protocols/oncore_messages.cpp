@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "protocols/big_endian.h"
 #include "protocols/oncore.h"
+#include "protocols/wire_fields.h"
 
 namespace navcal::protocols::oncore {
 namespace {
@@ -26,8 +26,8 @@ std::optional<VisibleSatellites> decode_bb(Bytes frame) {
   out.in_range = true;
   for (std::size_t i = 0; i < out.count; ++i) {
     const std::uint8_t* const p = frame.data() + 5 + 7 * i;
-    out.satellites[i] = {p[0], read_i16(p + 1), p[3], read_u16(p + 4), p[6]};
-    out.in_range = out.in_range && p[3] <= 90 && read_u16(p + 4) <= 360;
+    out.satellites[i] = {p[0], get_be<std::int16_t>(p + 1), p[3], get_be<std::uint16_t>(p + 4), p[6]};
+    out.in_range = out.in_range && p[3] <= 90 && get_be<std::uint16_t>(p + 4) <= 360;
   }
   return out;
 }
@@ -44,7 +44,7 @@ std::optional<LeapAnnouncement> decode_gj(Bytes frame) {
   LeapAnnouncement out;
   out.present_s = static_cast<std::int8_t>(f[4]);
   out.future_s = static_cast<std::int8_t>(f[5]);
-  out.date = {read_u16(f + 6), f[8], f[9]};
+  out.date = {get_be<std::uint16_t>(f + 6), f[8], f[9]};
   out.time = {f[15], f[16], f[17], 0};
   out.in_range = is_valid(out.date) && is_valid(out.time);
   return out;
@@ -59,8 +59,8 @@ std::optional<TimeRaim> decode_hn(Bytes frame) {
   if (f[6] == 0) out.solution = TimeRaim::Solution::ok;
   if (f[6] == 1) out.solution = TimeRaim::Solution::alarm;
   out.method = f[7];
-  out.removed = read_u32(f + 8);
-  out.accuracy_ns = read_u16(f + 12);
+  out.removed = get_be<std::uint32_t>(f + 8);
+  out.accuracy_ns = get_be<std::uint16_t>(f + 12);
   out.sawtooth_ns = static_cast<std::int8_t>(f[14]);
   return out;
 }

@@ -3,10 +3,10 @@
 
 #include <cstdlib>
 
-#include "protocols/big_endian.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_ascii.h"
 #include "protocols/units.h"
+#include "protocols/wire_fields.h"
 
 namespace navcal::protocols::oncore {
 namespace {
@@ -17,12 +17,14 @@ constexpr unsigned kMaxHeading = 3599;  // tenths of a degree
 constexpr unsigned kMaxDop = 999;       // tenths
 
 Coordinates coordinates(const std::uint8_t* p) {
-  return {read_i32(p) / kMilliarcsecondsPerDegree, read_i32(p + 4) / kMilliarcsecondsPerDegree,
-          read_i32(p + 8) / 100.0, read_i32(p + 12) / 100.0};
+  return {get_be<std::int32_t>(p) / kMilliarcsecondsPerDegree,
+          get_be<std::int32_t>(p + 4) / kMilliarcsecondsPerDegree, get_be<std::int32_t>(p + 8) / 100.0,
+          get_be<std::int32_t>(p + 12) / 100.0};
 }
 
 bool place_in_range(const std::uint8_t* p) {
-  return std::llabs(read_i32(p)) <= kMaxLatitude_mas && std::llabs(read_i32(p + 4)) <= kMaxLongitude_mas;
+  return std::llabs(get_be<std::int32_t>(p)) <= kMaxLatitude_mas &&
+         std::llabs(get_be<std::int32_t>(p + 4)) <= kMaxLongitude_mas;
 }
 
 // Ha and Hb: the three highest bits are a number.
@@ -57,16 +59,16 @@ Antenna antenna_of(unsigned bits) {
 // Date, time and place stand at the same offsets in Ha, Hb and Ea; speed, heading, DOP and counts follow one
 // another.
 void read_common(const std::uint8_t* f, Position& out) {
-  out.date = {read_u16(f + 6), f[4], f[5]};
-  out.time = {f[8], f[9], f[10], read_u32(f + 11)};
+  out.date = {get_be<std::uint16_t>(f + 6), f[4], f[5]};
+  out.time = {f[8], f[9], f[10], get_be<std::uint32_t>(f + 11)};
   out.filtered = coordinates(f + 15);
   out.in_range = is_valid(out.date) && is_valid(out.time) && place_in_range(f + 15);
 }
 
 void read_motion(const std::uint8_t* speed, const std::uint8_t* counts, Position& out) {
-  const std::uint16_t heading = read_u16(speed + 2);
-  const std::uint16_t dop = read_u16(speed + 4);
-  out.speed_m_s = read_u16(speed) / 100.0;
+  const std::uint16_t heading = get_be<std::uint16_t>(speed + 2);
+  const std::uint16_t dop = get_be<std::uint16_t>(speed + 4);
+  out.speed_m_s = get_be<std::uint16_t>(speed) / 100.0;
   out.heading_deg = heading / 10.0;
   out.dop = dop / 10.0;
   out.visible = counts[0];
@@ -75,7 +77,7 @@ void read_motion(const std::uint8_t* speed, const std::uint8_t* counts, Position
 }
 
 void read_receiver_status(const std::uint8_t* p, Position& out) {
-  const std::uint16_t status = read_u16(p);
+  const std::uint16_t status = get_be<std::uint16_t>(p);
   out.status = status;
   out.fix = fix_of_twelve_channels(status);
   out.no_almanac = (status & 0x80U) != 0;
@@ -98,17 +100,17 @@ Position decode_ha(const std::uint8_t* f) {
   read_common(f, out);
   out.unfiltered = coordinates(f + 31);
   out.in_range = out.in_range && place_in_range(f + 31);
-  out.speed_3d_m_s = read_u16(f + 47) / 100.0;
+  out.speed_3d_m_s = get_be<std::uint16_t>(f + 47) / 100.0;
   read_motion(f + 49, f + 55, out);
   out.channel_count = 12;
   for (std::size_t i = 0; i < out.channel_count; ++i) {
     const std::uint8_t* const c = f + 57 + 6 * i;
-    out.channels[i] = {c[0], c[1], c[2], c[3], read_u16(c + 4)};
+    out.channels[i] = {c[0], c[1], c[2], c[3], get_be<std::uint16_t>(c + 4)};
   }
   read_receiver_status(f + 129, out);
-  out.clock_bias_ns = read_i16(f + 133);
-  out.oscillator_offset_Hz = read_u32(f + 135);
-  out.temperature_C = read_i16(f + 139) / 2.0;
+  out.clock_bias_ns = get_be<std::int16_t>(f + 133);
+  out.oscillator_offset_Hz = get_be<std::uint32_t>(f + 135);
+  out.temperature_C = get_be<std::int16_t>(f + 139) / 2.0;
   out.utc = UtcState{(f[141] & 0x80) != 0, (f[141] & 0x40) != 0, six_bits_signed(f[141])};
   read_id_tag(f + 145, out);
   return out;
@@ -117,7 +119,7 @@ Position decode_ha(const std::uint8_t* f) {
 Position decode_hb(const std::uint8_t* f) {
   Position out;
   read_common(f, out);
-  out.speed_3d_m_s = read_u16(f + 31) / 100.0;
+  out.speed_3d_m_s = get_be<std::uint16_t>(f + 31) / 100.0;
   read_motion(f + 33, f + 39, out);
   read_receiver_status(f + 41, out);
   read_id_tag(f + 45, out);

@@ -22,103 +22,100 @@ std::uint16_t sum_of(Bytes bytes) {
   return static_cast<std::uint16_t>(sum);
 }
 
-template <std::integral T>
-double value_at(Bytes p, std::size_t at, double step) {
-  return static_cast<double>(get_le<T>(&p[at])) * step;
-}
-template <std::integral T>
-void put_value(std::vector<std::uint8_t>& p, std::size_t at, double value, double step) {
-  put_le(&p[at], saturated<T>(value / step));
+template <class Layout, class Leader>
+void lay_out_fixed(const Layout& p, Leader& fixed) {
+  p.number(2, fixed.firmware_version);
+  p.number(3, fixed.firmware_revision);
+  p.number(4, fixed.system);
+  p.number(8, fixed.beams);
+  p.number(9, fixed.cells);
+  p.bits(25, 3, 2, fixed.axes);
+  p.bits(25, 2, 1, fixed.uses_tilts);
+  p.bits(25, 1, 1, fixed.allows_three_beams);
+  p.bits(25, 0, 1, fixed.maps_bins);
+  p.template scaled<std::int16_t>(26, fixed.heading_alignment_deg, kCentidegree_deg);
+  p.template scaled<std::int16_t>(28, fixed.heading_bias_deg, kCentidegree_deg);
+  if (p.size() >= 32) {
+    p.number(30, fixed.used_sensors);
+    p.number(31, fixed.fitted_sensors);
+  }
+  if (p.size() >= kFixedLength) p.number(58, fixed.stated_beam_angle_deg);
 }
 
 std::optional<FixedLeader> read_fixed(Bytes p) {
   if (p.size() < kFixedLeast) return std::nullopt;
   FixedLeader fixed;
-  fixed.firmware_version = p[2];
-  fixed.firmware_revision = p[3];
-  fixed.system = get_le<std::uint16_t>(&p[4]);
-  fixed.beams = p[8];
-  fixed.cells = p[9];
-  fixed.axes = static_cast<Axes>(p[25] >> 3 & 3U);
-  fixed.uses_tilts = (p[25] & 4U) != 0;
-  fixed.allows_three_beams = (p[25] & 2U) != 0;
-  fixed.maps_bins = (p[25] & 1U) != 0;
-  fixed.heading_alignment_deg = value_at<std::int16_t>(p, 26, kCentidegree_deg);
-  fixed.heading_bias_deg = value_at<std::int16_t>(p, 28, kCentidegree_deg);
-  if (p.size() >= 32) {
-    fixed.used_sensors = p[30];
-    fixed.fitted_sensors = p[31];
-  }
-  if (p.size() >= kFixedLength) fixed.stated_beam_angle_deg = p[58];
+  lay_out_fixed(LayoutReader(p), fixed);
   return fixed;
 }
 
 std::vector<std::uint8_t> write_fixed(const FixedLeader& fixed) {
   std::vector<std::uint8_t> p(kFixedLength);
-  p[2] = fixed.firmware_version;
-  p[3] = fixed.firmware_revision;
-  put_le(&p[4], fixed.system);
-  p[8] = fixed.beams;
-  p[9] = fixed.cells;
-  p[25] = static_cast<std::uint8_t>(static_cast<unsigned>(fixed.axes) << 3 | (fixed.uses_tilts ? 4U : 0U) |
-                                    (fixed.allows_three_beams ? 2U : 0U) | (fixed.maps_bins ? 1U : 0U));
-  put_value<std::int16_t>(p, 26, fixed.heading_alignment_deg, kCentidegree_deg);
-  put_value<std::int16_t>(p, 28, fixed.heading_bias_deg, kCentidegree_deg);
-  p[30] = fixed.used_sensors;
-  p[31] = fixed.fitted_sensors;
-  p[58] = fixed.stated_beam_angle_deg;
+  lay_out_fixed(LayoutWriter(p), fixed);
   return p;
+}
+
+/// But for ensemble, year, hundredths of a second and pressure.
+template <class Layout, class Leader>
+void lay_out_variable(const Layout& p, Leader& variable) {
+  p.number(5, variable.date.month);
+  p.number(6, variable.date.day);
+  p.number(7, variable.time.hour);
+  p.number(8, variable.time.minute);
+  p.number(9, variable.time.second);
+  p.number(12, variable.self_test);
+  p.template scaled<std::uint16_t>(14, variable.speed_of_sound_m_s, 1);
+  p.template scaled<std::uint16_t>(16, variable.depth_m, kDecimetre_m);
+  p.template scaled<std::uint16_t>(18, variable.heading_deg, kCentidegree_deg);
+  p.template scaled<std::int16_t>(20, variable.pitch_deg, kCentidegree_deg);
+  p.template scaled<std::int16_t>(22, variable.roll_deg, kCentidegree_deg);
+  p.template scaled<std::uint16_t>(24, variable.salinity_ppt, 1);
+  p.template scaled<std::int16_t>(26, variable.temperature_C, kCentikelvin_C);
 }
 
 std::optional<VariableLeader> read_variable(Bytes p) {
   if (p.size() < kVariableLeast) return std::nullopt;
   VariableLeader variable;
+  lay_out_variable(LayoutReader(p), variable);
   variable.ensemble = get_le<std::uint16_t>(&p[2]) + (std::uint32_t{p[11]} << 16);
-  variable.date = {full_year(p[4]), p[5], p[6]};
-  variable.time = {p[7], p[8], p[9], p[10] * 10'000'000U};
-  variable.self_test = get_le<std::uint16_t>(&p[12]);
-  variable.speed_of_sound_m_s = value_at<std::uint16_t>(p, 14, 1);
-  variable.depth_m = value_at<std::uint16_t>(p, 16, kDecimetre_m);
-  variable.heading_deg = value_at<std::uint16_t>(p, 18, kCentidegree_deg);
-  variable.pitch_deg = value_at<std::int16_t>(p, 20, kCentidegree_deg);
-  variable.roll_deg = value_at<std::int16_t>(p, 22, kCentidegree_deg);
-  variable.salinity_ppt = value_at<std::uint16_t>(p, 24, 1);
-  variable.temperature_C = value_at<std::int16_t>(p, 26, kCentikelvin_C);
-  if (p.size() >= 52) variable.pressure_Pa = value_at<std::int32_t>(p, 48, kDecapascal_Pa);
+  variable.date.year = full_year(p[4]);
+  variable.time.nanosecond = p[10] * 10'000'000U;
+  if (p.size() >= 52) LayoutReader(p).scaled<std::int32_t>(48, variable.pressure_Pa.emplace(), kDecapascal_Pa);
   return variable;
 }
 
 std::vector<std::uint8_t> write_variable(const VariableLeader& variable) {
   std::vector<std::uint8_t> p(variable.pressure_Pa ? kVariableLength : 46U);
+  lay_out_variable(LayoutWriter(p), variable);
   put_le(&p[0], kVariableType);
   put_le(&p[2], static_cast<std::uint16_t>(variable.ensemble));
   p[4] = static_cast<std::uint8_t>(variable.date.year % 100);
-  p[5] = variable.date.month;
-  p[6] = variable.date.day;
-  p[7] = variable.time.hour;
-  p[8] = variable.time.minute;
-  p[9] = variable.time.second;
   p[10] = static_cast<std::uint8_t>(variable.time.nanosecond / 10'000'000U);
   p[11] = static_cast<std::uint8_t>(variable.ensemble >> 16);
-  put_le(&p[12], variable.self_test);
-  put_value<std::uint16_t>(p, 14, variable.speed_of_sound_m_s, 1);
-  put_value<std::uint16_t>(p, 16, variable.depth_m, kDecimetre_m);
-  put_value<std::uint16_t>(p, 18, variable.heading_deg, kCentidegree_deg);
-  put_value<std::int16_t>(p, 20, variable.pitch_deg, kCentidegree_deg);
-  put_value<std::int16_t>(p, 22, variable.roll_deg, kCentidegree_deg);
-  put_value<std::uint16_t>(p, 24, variable.salinity_ppt, 1);
-  put_value<std::int16_t>(p, 26, variable.temperature_C, kCentikelvin_C);
-  if (variable.pressure_Pa) put_value<std::int32_t>(p, 48, *variable.pressure_Pa, kDecapascal_Pa);
+  if (variable.pressure_Pa) LayoutWriter(p).scaled<std::int32_t>(48, *variable.pressure_Pa, kDecapascal_Pa);
   return p;
 }
 
-std::optional<double> velocity_at(Bytes p, std::size_t at) {
-  if (get_le<std::int16_t>(&p[at]) == kNoVelocity) return std::nullopt;
-  return value_at<std::int16_t>(p, at, kMillimetre_m_s);
+void velocity(const LayoutReader& p, std::size_t at, std::optional<double>& velocity_m_s) {
+  std::int16_t steps = 0;
+  p.number(at, steps);
+  if (steps != kNoVelocity) velocity_m_s = steps * kMillimetre_m_s;
 }
-void put_velocity(std::vector<std::uint8_t>& p, std::size_t at, const std::optional<double>& velocity_m_s) {
+void velocity(const LayoutWriter& p, std::size_t at, const std::optional<double>& velocity_m_s) {
   const double steps = velocity_m_s ? std::max(-32767.0, *velocity_m_s / kMillimetre_m_s) : double{kNoVelocity};
-  put_le(&p[at], saturated<std::int16_t>(steps));
+  p.number(at, saturated<std::int16_t>(steps));
+}
+
+/// But for the ranges.
+template <class Layout, class Track>
+void lay_out_beam(const Layout& p, Track& bottom, std::size_t i) {
+  velocity(p, 24 + 2 * i, bottom.velocity_m_s[i]);
+  p.number(32 + i, bottom.correlation[i]);
+  p.number(36 + i, bottom.amplitude[i]);
+  p.number(40 + i, bottom.percent_good[i]);
+  if (p.size() < 70) return;
+  velocity(p, 50 + 2 * i, bottom.water_velocity_m_s[i]);
+  p.number(66 + i, bottom.water_percent_good[i]);
 }
 
 std::optional<BottomTrack> read_bottom(Bytes p) {
@@ -128,13 +125,7 @@ std::optional<BottomTrack> read_bottom(Bytes p) {
     std::uint32_t range = get_le<std::uint16_t>(&p[16 + 2 * i]);
     if (p.size() >= kBottomLength) range += std::uint32_t{p[77 + i]} << 16;
     if (range != 0) bottom.range_m[i] = range * kCentimetre_m;
-    bottom.velocity_m_s[i] = velocity_at(p, 24 + 2 * i);
-    bottom.correlation[i] = p[32 + i];
-    bottom.amplitude[i] = p[36 + i];
-    bottom.percent_good[i] = p[40 + i];
-    if (p.size() < 70) continue;
-    bottom.water_velocity_m_s[i] = velocity_at(p, 50 + 2 * i);
-    bottom.water_percent_good[i] = p[66 + i];
+    lay_out_beam(LayoutReader(p), bottom, i);
   }
   return bottom;
 }
@@ -146,12 +137,7 @@ std::vector<std::uint8_t> write_bottom(const BottomTrack& bottom) {
     const auto range = saturated<std::uint32_t>(bottom.range_m[i].value_or(0) / kCentimetre_m);
     put_le(&p[16 + 2 * i], static_cast<std::uint16_t>(range));
     p[77 + i] = static_cast<std::uint8_t>(range >> 16);
-    put_velocity(p, 24 + 2 * i, bottom.velocity_m_s[i]);
-    p[32 + i] = bottom.correlation[i];
-    p[36 + i] = bottom.amplitude[i];
-    p[40 + i] = bottom.percent_good[i];
-    put_velocity(p, 50 + 2 * i, bottom.water_velocity_m_s[i]);
-    p[66 + i] = bottom.water_percent_good[i];
+    lay_out_beam(LayoutWriter(p), bottom, i);
   }
   return p;
 }
@@ -229,9 +215,7 @@ std::vector<std::uint8_t> encode_types(const std::vector<std::vector<std::uint8_
   }
   assert(frame.size() + 2 <= kMaxLength);
   put_le(&frame[2], static_cast<std::uint16_t>(frame.size()));
-  const std::uint16_t sum = sum_of(frame);
-  frame.push_back(static_cast<std::uint8_t>(sum));
-  frame.push_back(static_cast<std::uint8_t>(sum >> 8));
+  append_le(frame, sum_of(frame));
   return frame;
 }
 

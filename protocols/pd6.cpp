@@ -30,19 +30,6 @@ std::optional<std::string_view> fields_text(Bytes frame, FrameId line) {
   return text;
 }
 
-template <std::size_t N>
-std::optional<std::array<double, N>> numbers(std::string_view text) {
-  const auto fields = split_exactly<N>(text);
-  if (!fields) return std::nullopt;
-  std::array<double, N> values{};
-  for (std::size_t i = 0; i < N; ++i) {
-    const auto value = signed_number((*fields)[i]);
-    if (!value) return std::nullopt;
-    values[i] = *value;
-  }
-  return values;
-}
-
 /// A velocity field; `value` stays absent for no value. False when the field is not a number.
 bool read_velocity(std::string_view field, std::optional<double>& value_m_s) {
   const auto value_mm_s = signed_number(field);

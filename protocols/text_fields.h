@@ -37,4 +37,18 @@ template <std::size_t N>
   return value;
 }
 
+/// The fields of `text` as numbers; nullopt unless there are exactly N.
+template <std::size_t N>
+[[nodiscard]] std::optional<std::array<double, N>> numbers(std::string_view text) {
+  const auto fields = split_exactly<N>(text);
+  if (!fields) return std::nullopt;
+  std::array<double, N> values{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto value = signed_number((*fields)[i]);
+    if (!value) return std::nullopt;
+    values[i] = *value;
+  }
+  return values;
+}
+
 }  // namespace navcal::protocols

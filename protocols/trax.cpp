@@ -65,11 +65,6 @@ void read_component(Component component, const std::uint8_t* p, Data& data) {
   }
 }
 
-void append_float(std::vector<std::uint8_t>& payload, double value) {
-  payload.resize(payload.size() + 4);
-  put_be(&payload[payload.size() - 4], static_cast<float>(value));
-}
-
 /// Payload of a frame with this number, of at least this size.
 std::optional<Bytes> payload_if(Bytes frame, FrameNumber number, std::size_t least) {
   if (frame.size() < kOverhead + least || frame[2] != static_cast<std::uint8_t>(number)) return std::nullopt;
@@ -177,11 +172,11 @@ std::vector<std::uint8_t> encode_data(const Data& data) {
     const Place place = place_of(component, copy);
     if (!*place.value) continue;
     begin(component);
-    append_float(payload, **place.value / place.unit);
+    append_be(payload, static_cast<float>(**place.value / place.unit));
   }
   if (data.quaternion) {
     begin(Component::quaternion);
-    for (const double one : *data.quaternion) append_float(payload, one);
+    for (const double one : *data.quaternion) append_be(payload, static_cast<float>(one));
   }
   const auto append_byte = [&](Component component, std::uint8_t value) {
     begin(component);
@@ -210,7 +205,7 @@ std::vector<std::uint8_t> encode_score(const Score& score) {
   std::vector<std::uint8_t> payload;
   for (const double one : {score.magnetometer, score.reserved, score.accelerometer, score.distribution_error,
                            score.tilt_error, score.tilt_range_deg}) {
-    append_float(payload, one);
+    append_be(payload, static_cast<float>(one));
   }
   return encode_frame(FrameNumber::calibration_score, payload);
 }
@@ -235,7 +230,7 @@ std::vector<std::uint8_t> encode_components(std::span<const Component> component
 std::vector<std::uint8_t> encode_setting(Setting setting, double value) {
   std::vector<std::uint8_t> payload{static_cast<std::uint8_t>(setting)};
   if (setting == Setting::declination_deg) {
-    append_float(payload, value);
+    append_be(payload, static_cast<float>(value));
   } else if (setting == Setting::calibration_points) {
     payload.resize(5);
     put_be(&payload[1], saturated<std::uint32_t>(value));
@@ -247,8 +242,8 @@ std::vector<std::uint8_t> encode_setting(Setting setting, double value) {
 
 std::vector<std::uint8_t> encode_acquisition(const Acquisition& acquisition) {
   std::vector<std::uint8_t> payload{acquisition.polled ? std::uint8_t{1} : std::uint8_t{0}, 0};  // no flush
-  append_float(payload, 0);                                                                      // reserved
-  append_float(payload, acquisition.interval_s);
+  append_be(payload, 0.0F);                                                                      // reserved
+  append_be(payload, static_cast<float>(acquisition.interval_s));
   return encode_frame(FrameNumber::set_acquisition, payload);
 }
 std::optional<Acquisition> decode_acquisition(Bytes frame) {

@@ -142,10 +142,7 @@ Scan scan_binary(const std::uint8_t* first, std::size_t available) {
 
 template <class T>
 void append_numbers(std::vector<std::uint8_t>& fields, const Triple& values, double unit = 1) {
-  for (const double value : values) {
-    fields.resize(fields.size() + sizeof(T));
-    put_le(&fields[fields.size() - sizeof(T)], static_cast<T>(value / unit));
-  }
+  for (const double value : values) append_le(fields, static_cast<T>(value / unit));
 }
 
 }  // namespace
@@ -184,8 +181,7 @@ std::vector<std::uint8_t> encode_binary(const Reading& reading) {
   const auto append_time = [&](Common bit, const std::optional<std::uint64_t>& time_ns) {
     if (!time_ns) return;
     bits |= 1U << bit;
-    fields.resize(fields.size() + 8);
-    put_le(&fields[fields.size() - 8], *time_ns);
+    append_le(fields, *time_ns);
   };
   const auto append_triple = [&](Common bit, const std::optional<Triple>& values) {
     if (!values) return;
@@ -197,8 +193,7 @@ std::vector<std::uint8_t> encode_binary(const Reading& reading) {
   append_triple(yaw_pitch_roll, reading.yaw_pitch_roll_deg);
   if (const auto& q = reading.quaternion) {
     append_triple(quaternion_field, Triple{(*q)[0], (*q)[1], (*q)[2]});
-    fields.resize(fields.size() + 4);
-    put_le(&fields[fields.size() - 4], static_cast<float>((*q)[3]));
+    append_le(fields, static_cast<float>((*q)[3]));
   }
   append_triple(angular_rate, reading.rate_rad_s);
   if (reading.position) {
@@ -214,9 +209,8 @@ std::vector<std::uint8_t> encode_binary(const Reading& reading) {
   if (reading.field_uT) {
     bits |= 1U << field_and_pressure;
     append_numbers<float>(fields, *reading.field_uT, kVnGauss_uT);
-    fields.resize(fields.size() + 8);
-    put_le(&fields[fields.size() - 8], static_cast<float>(reading.temperature_C.value_or(0)));
-    put_le(&fields[fields.size() - 4], static_cast<float>(reading.pressure_Pa.value_or(0) / kKilopascal_Pa));
+    append_le(fields, static_cast<float>(reading.temperature_C.value_or(0)));
+    append_le(fields, static_cast<float>(reading.pressure_Pa.value_or(0) / kKilopascal_Pa));
   }
   std::vector<std::uint8_t> frame{0xFA, 0x01, static_cast<std::uint8_t>(bits),
                                   static_cast<std::uint8_t>(bits >> 8)};
@@ -227,9 +221,7 @@ std::vector<std::uint8_t> encode_binary(const Reading& reading) {
     append_numbers<float>(fields, *reading.yaw_pitch_roll_std_deg);
   }
   frame.insert(frame.end(), fields.begin(), fields.end());
-  const std::uint16_t crc = crc16_xmodem(Bytes(frame).subspan(1));
-  frame.push_back(static_cast<std::uint8_t>(crc >> 8));
-  frame.push_back(static_cast<std::uint8_t>(crc));
+  append_be(frame, crc16_xmodem(Bytes(frame).subspan(1)));
   return frame;
 }
 

@@ -12,20 +12,6 @@ namespace {
 
 constexpr double kLineGauss_uT = 100, kLineKilopascal_Pa = 1000;
 
-/// The numbers of a line after its name; nullopt unless there are exactly N.
-template <std::size_t N>
-std::optional<std::array<double, N>> numbers(std::string_view fields) {
-  const auto texts = split_exactly<N>(fields);
-  if (!texts) return std::nullopt;
-  std::array<double, N> values{};
-  for (std::size_t i = 0; i < N; ++i) {
-    const auto value = signed_number((*texts)[i]);
-    if (!value) return std::nullopt;
-    values[i] = *value;
-  }
-  return values;
-}
-
 template <std::size_t N>
 Triple three(const std::array<double, N>& values, std::size_t from, double unit = 1) {
   return {values[from] * unit, values[from + 1] * unit, values[from + 2] * unit};

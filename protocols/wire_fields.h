@@ -8,6 +8,9 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <vector>
+
+#include "protocols/frame.h"
 
 /// Numbers in binary messages: integers in two's complement and IEEE 754 floats, in either byte order.
 namespace navcal::protocols {
@@ -54,6 +57,18 @@ void put_be(std::uint8_t* p, T value) {
   for (std::size_t i = 0; i < sizeof(T); ++i) p[i] = static_cast<std::uint8_t>(raw >> 8 * (sizeof(T) - 1 - i));
 }
 
+template <WireNumber T>
+void append_le(std::vector<std::uint8_t>& bytes, T value) {
+  bytes.resize(bytes.size() + sizeof(T));
+  put_le(&bytes[bytes.size() - sizeof(T)], value);
+}
+
+template <WireNumber T>
+void append_be(std::vector<std::uint8_t>& bytes, T value) {
+  bytes.resize(bytes.size() + sizeof(T));
+  put_be(&bytes[bytes.size() - sizeof(T)], value);
+}
+
 /// `value` rounded to the nearest integer; the nearest end of the range of T when it does not fit, 0 for NaN.
 template <std::integral T>
 [[nodiscard]] T saturated(double value) {
@@ -63,5 +78,54 @@ template <std::integral T>
   if (rounded >= static_cast<double>(std::numeric_limits<T>::max())) return std::numeric_limits<T>::max();
   return static_cast<T>(rounded);
 }
+
+/// Fields of a little-endian message at their places. A layout is stated once, as a function of one of these two:
+/// the one takes the members from the message, the other puts them into it.
+class LayoutReader {
+ public:
+  explicit LayoutReader(Bytes message) : message_(message) {}
+
+  [[nodiscard]] std::size_t size() const { return message_.size(); }
+  template <WireNumber T>
+  void number(std::size_t at, T& value) const {
+    value = get_le<T>(&message_[at]);
+  }
+  /// A whole number of steps.
+  template <std::integral T>
+  void scaled(std::size_t at, double& value, double step) const {
+    value = static_cast<double>(get_le<T>(&message_[at])) * step;
+  }
+  template <class T>
+  void bits(std::size_t at, unsigned lowest, unsigned width, T& value) const {
+    value = static_cast<T>(message_[at] >> lowest & ((1U << width) - 1));
+  }
+
+ private:
+  Bytes message_;
+};
+
+class LayoutWriter {
+ public:
+  explicit LayoutWriter(std::vector<std::uint8_t>& message) : message_(message) {}
+
+  [[nodiscard]] std::size_t size() const { return message_.size(); }
+  template <WireNumber T>
+  void number(std::size_t at, const T& value) const {
+    put_le(&message_[at], value);
+  }
+  template <std::integral T>
+  void scaled(std::size_t at, double value, double step) const {
+    put_le(&message_[at], saturated<T>(value / step));
+  }
+  template <class T>
+  void bits(std::size_t at, unsigned lowest, unsigned width, const T& value) const {
+    const unsigned mask = (1U << width) - 1;
+    message_[at] = static_cast<std::uint8_t>((message_[at] & ~(mask << lowest)) |
+                                             (static_cast<unsigned>(value) & mask) << lowest);
+  }
+
+ private:
+  std::vector<std::uint8_t>& message_;
+};
 
 }  // namespace navcal::protocols
