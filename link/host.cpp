@@ -22,16 +22,7 @@ std::uint32_t milliseconds(std::int64_t now_ns) { return static_cast<std::uint32
 
 }  // namespace
 
-Host::Host(EndOptions options) : options_(std::move(options)), budget_(options_.budget_B_s) {
-  if (options_.key) outside_ = options_.key->outside();
-  hello_ = options_.nonce();
-}
-
-void Host::take(std::int64_t now_ns, Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) {
-    if (const auto view = view_frame(frame.bytes)) take_frame(now_ns, *view);
-  });
-}
+Host::Host(EndOptions options) : End(std::move(options)) { hello_ = options_.nonce(); }
 
 void Host::take_frame(std::int64_t now_ns, const FrameView& view) {
   switch (view.header.type) {
@@ -128,12 +119,7 @@ void Host::take_from_vehicle(std::int64_t now_ns, const FrameView& view) {
       return;
     }
     case FrameType::segment:
-      if (const auto segment = decode_segment(view.payload))
-        session_->receiver.take(now_ns, *segment, view.header.counter);
-      return;
-    case FrameType::ack:
-      if (const auto ack = decode_ack(view.payload)) session_->sender.acknowledge(now_ns, *ack);
-      return;
+    case FrameType::ack: return take_of_stream(now_ns, view, *session_);
     default: return;
   }
 }
@@ -180,19 +166,6 @@ std::int64_t Host::again_ns() const {
   return static_cast<std::int64_t>(again_s * 1e9);
 }
 
-bool Host::passes(std::int64_t now_ns, std::size_t payload, bool is_urgent) {
-  const std::size_t length = frame_length(payload, options_.key.has_value());
-  if (budget_.allows(now_ns, length, is_urgent)) return true;
-  wake(budget_.ready_ns(length, is_urgent));
-  return false;
-}
-
-Buffer Host::counted(Buffer frame) {
-  budget_.spend(frame.size());
-  counters_.sent_bytes += frame.size();
-  return frame;
-}
-
 std::optional<Buffer> Host::next(std::int64_t now_ns) {
   wake_ns_ = kNoDeadline;
   if (session_) {
@@ -214,14 +187,14 @@ std::optional<Buffer> Host::next(std::int64_t now_ns) {
   }
   if (byes_ == 0) return std::nullopt;
   if (now_ns >= ping_due_ns_) {
-    if (!passes(now_ns, 4, false)) return std::nullopt;
+    if (!passes(now_ns, 4)) return std::nullopt;
     ping_due_ns_ = now_ns + kSecond_ns;
     FieldWriter out;
     out.put(milliseconds(now_ns));
     return counted(session_->frame(FrameType::ping, std::move(out).take()));
   }
   wake(ping_due_ns_);
-  return next_of_stream(now_ns);
+  return next_of_stream(now_ns, *session_);
 }
 
 std::optional<Buffer> Host::next_command(std::int64_t now_ns) {
@@ -241,26 +214,10 @@ std::optional<Buffer> Host::next_hello(std::int64_t now_ns) {
     wake(hello_due_ns_);
     return std::nullopt;
   }
-  if (!passes(now_ns, sizeof(Nonce), false)) return std::nullopt;
+  if (!passes(now_ns, sizeof(Nonce))) return std::nullopt;
   hello_due_ns_ = now_ns + kSecond_ns;
   return counted(
       make_frame({FrameType::hello, false, 0, ++outside_counter_}, *hello_, outside_, Direction::to_vehicle));
-}
-
-std::optional<Buffer> Host::next_of_stream(std::int64_t now_ns) {
-  if (now_ns >= session_->receiver.ack_due_ns()) {
-    if (!passes(now_ns, 12, false)) return std::nullopt;
-    return counted(session_->frame(FrameType::ack, encode_ack(session_->receiver.ack(now_ns))));
-  }
-  wake(session_->receiver.ack_due_ns());
-  if (const auto segment = session_->sender.due(now_ns)) {
-    if (!passes(now_ns, segment->size(), false)) return std::nullopt;
-    Buffer frame = session_->frame(FrameType::segment, *segment);
-    session_->sender.sent(now_ns, session_->last_counter());
-    return counted(std::move(frame));
-  }
-  wake(session_->sender.deadline_ns());
-  return std::nullopt;
 }
 
 }  // namespace navcal::link

@@ -15,8 +15,8 @@
 
 namespace navcal::link {
 
-/// The operator's end of the link (docs/remote.md). Used as Vehicle is.
-class Host {
+/// The operator's end of the link (docs/remote.md).
+class Host final : public End {
  public:
   /// Frames with which a session ends: one of them should come through.
   static constexpr int kByes = 6;
@@ -35,8 +35,6 @@ class Host {
 
   explicit Host(EndOptions options);
 
-  void take(std::int64_t now_ns, Bytes bytes);
-
   /// A command; it replaces one that has not been answered. Returns its number. nullopt: there is no session yet,
   /// or an order would replace a lease, a release or a stop under way.
   [[nodiscard]] std::optional<std::uint16_t> command(std::int64_t now_ns, Command command);
@@ -52,9 +50,7 @@ class Host {
   void bye() { byes_ = kByes; }
   [[nodiscard]] bool has_said_bye() const { return byes_ == 0; }
 
-  [[nodiscard]] std::optional<Buffer> next(std::int64_t now_ns);
-  /// When next() may have something to do; right after next() gave nothing.
-  [[nodiscard]] std::int64_t deadline_ns() const { return wake_ns_; }
+  [[nodiscard]] std::optional<Buffer> next(std::int64_t now_ns) override;
 
   [[nodiscard]] bool has_session() const { return session_ != nullptr; }
   /// Sessions so far. With a new one all requests and commands under way are forgotten: nobody knows whether they
@@ -63,8 +59,6 @@ class Host {
   /// Something was heard of the session within dead_s.
   [[nodiscard]] bool is_alive(std::int64_t now_ns) const;
   [[nodiscard]] Quality quality() const;
-  [[nodiscard]] const EndCounters& counters() const { return counters_; }
-  [[nodiscard]] const protocols::Counters& line() const { return parser_.counters(); }
 
  private:
   [[nodiscard]] bool has_begun_to_leave() const { return byes_ >= 0 && byes_ < kByes; }
@@ -73,28 +67,19 @@ class Host {
     std::int64_t due_ns = 0;    ///< when it is sent, again
     std::int64_t until_ns = 0;  ///< sent no more after this: nobody wants an old order executed
   };
-  void take_frame(std::int64_t now_ns, const FrameView& view);
+  void take_frame(std::int64_t now_ns, const FrameView& view) override;
   void take_welcome(std::int64_t now_ns, const FrameView& view);
   void take_from_vehicle(std::int64_t now_ns, const FrameView& view);
   void take_stray(const FrameView& view);
   void take_pong(std::int64_t now_ns, Bytes payload);
-  [[nodiscard]] bool passes(std::int64_t now_ns, std::size_t payload, bool is_urgent);
   [[nodiscard]] std::optional<Buffer> next_hello(std::int64_t now_ns);
   [[nodiscard]] std::optional<Buffer> next_command(std::int64_t now_ns);
-  [[nodiscard]] std::optional<Buffer> next_of_stream(std::int64_t now_ns);
-  [[nodiscard]] Buffer counted(Buffer frame);
   [[nodiscard]] std::int64_t again_ns() const;
-  void wake(std::int64_t time_ns) { wake_ns_ = std::min(wake_ns_, time_ns); }
 
-  EndOptions options_;
-  std::optional<SessionKey> outside_;
-  Parser parser_;
-  Budget budget_;
   std::optional<Nonce> hello_;  ///< the random number of a HELLO that has not been answered
   std::int64_t hello_due_ns_ = 0;
   std::unique_ptr<Session> session_;
   unsigned sessions_ = 0;
-  std::int64_t heard_ns_ = 0;
   std::int64_t ping_due_ns_ = 0;
   std::optional<Pending> pending_;
   std::uint16_t last_command_ = 0;
@@ -107,9 +92,6 @@ class Host {
   double loss_out_ = 0;
   int byes_ = -1;
   std::int64_t bye_due_ns_ = 0;
-  std::uint32_t outside_counter_ = 0;
-  std::int64_t wake_ns_ = 0;
-  EndCounters counters_;
 };
 
 }  // namespace navcal::link

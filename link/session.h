@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -72,6 +73,49 @@ class Session {
 [[nodiscard]] constexpr std::size_t frame_length(std::size_t payload, bool is_tagged) {
   return kHeaderLength + payload + (is_tagged ? kTagLength : 0) + kCrcLength;
 }
+
+/// An end of the link. Whoever owns one gives it bytes, takes what has come, and sends what next() gives until
+/// that is nothing; and again at deadline_ns().
+class End {
+ public:
+  virtual ~End() = default;
+  End(End&&) = default;
+  End& operator=(End&&) = default;
+
+  void take(std::int64_t now_ns, Bytes bytes);
+  /// The next frame for the line; it counts as sent.
+  [[nodiscard]] virtual std::optional<Buffer> next(std::int64_t now_ns) = 0;
+  /// When next() may have something to do; right after next() gave nothing.
+  [[nodiscard]] std::int64_t deadline_ns() const { return wake_ns_; }
+  [[nodiscard]] const EndCounters& counters() const { return counters_; }
+  [[nodiscard]] const protocols::Counters& line() const { return parser_.counters(); }
+
+ protected:
+  explicit End(EndOptions options);
+  virtual void take_frame(std::int64_t now_ns, const FrameView& view) = 0;
+  /// Segments and acknowledgements of a session.
+  static void take_of_stream(std::int64_t now_ns, const FrameView& view, Session& session);
+
+  /// Whether the budget lets a frame pass; else it wakes once it does.
+  [[nodiscard]] bool allows(std::int64_t now_ns, std::size_t length, bool is_urgent);
+  [[nodiscard]] bool passes(std::int64_t now_ns, std::size_t payload, bool is_urgent = false) {
+    return allows(now_ns, frame_length(payload, options_.key.has_value()), is_urgent);
+  }
+  [[nodiscard]] Buffer counted(Buffer frame);
+  [[nodiscard]] std::optional<Buffer> next_of_stream(std::int64_t now_ns, Session& session, bool is_heard = true);
+  void wake(std::int64_t time_ns) { wake_ns_ = std::min(wake_ns_, time_ns); }
+
+  EndOptions options_;
+  std::optional<SessionKey> outside_;
+  std::int64_t heard_ns_ = 0;
+  std::uint32_t outside_counter_ = 0;
+  std::int64_t wake_ns_ = 0;
+  EndCounters counters_;
+
+ private:
+  Parser parser_;
+  Budget budget_;
+};
 
 /// A frame made with a key, or with none: outside sessions.
 [[nodiscard]] Buffer make_frame(Header header, Bytes payload, const std::optional<SessionKey>& key,

@@ -15,16 +15,6 @@ std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(std:
 
 }  // namespace
 
-Vehicle::Vehicle(EndOptions options) : options_(std::move(options)), budget_(options_.budget_B_s) {
-  if (options_.key) outside_ = options_.key->outside();
-}
-
-void Vehicle::take(std::int64_t now_ns, Bytes bytes) {
-  parser_.feed(bytes, [&](const protocols::Frame& frame) {
-    if (const auto view = view_frame(frame.bytes)) take_frame(now_ns, *view);
-  });
-}
-
 void Vehicle::take_frame(std::int64_t now_ns, const FrameView& view) {
   switch (view.header.type) {
     case FrameType::hello: return take_hello(now_ns, view);
@@ -117,18 +107,12 @@ void Vehicle::end_session() {
 }
 
 void Vehicle::take_from_operator(std::int64_t now_ns, const FrameView& view) {
-  Session& session = *active_;
   switch (view.header.type) {
     case FrameType::bye: events_.push_back({Event::Kind::left, sessions_}); return end_session();
     case FrameType::ping: pong_ = Buffer(view.payload.begin(), view.payload.end()); return;
     case FrameType::command: return take_command_frame(view.payload);
     case FrameType::segment:
-      if (const auto segment = decode_segment(view.payload))
-        session.receiver.take(now_ns, *segment, view.header.counter);
-      return;
-    case FrameType::ack:
-      if (const auto ack = decode_ack(view.payload)) session.sender.acknowledge(now_ns, *ack);
-      return;
+    case FrameType::ack: return take_of_stream(now_ns, view, *active_);
     default: return;
   }
 }
@@ -173,19 +157,6 @@ void Vehicle::report(std::int64_t now_ns, Buffer payload) {
   report_due_ns_ = now_ns - report_due_ns_ < kReport_ns ? report_due_ns_ + kReport_ns : now_ns + kReport_ns;
 }
 
-bool Vehicle::passes(std::int64_t now_ns, std::size_t payload, bool is_tagged, bool is_urgent) {
-  const std::size_t length = frame_length(payload, is_tagged);
-  if (budget_.allows(now_ns, length, is_urgent)) return true;
-  wake(budget_.ready_ns(length, is_urgent));
-  return false;
-}
-
-Buffer Vehicle::counted(Buffer frame) {
-  budget_.spend(frame.size());
-  counters_.sent_bytes += frame.size();
-  return frame;
-}
-
 Buffer Vehicle::welcome(const Session& session) const {
   FieldWriter out;
   out.put_bytes(session.vehicle);
@@ -199,19 +170,18 @@ Buffer Vehicle::welcome(const Session& session) const {
 std::optional<Buffer> Vehicle::next(std::int64_t now_ns) {
   wake_ns_ = report_due_ns_;
   if (peer_ == Peer::alive) wake(heard_ns_ + nanoseconds(options_.dead_s));
-  const bool is_tagged = options_.key.has_value();
   if (active_ && answer_due_) {
     const Buffer payload = encode_answer(*last_answer_);
-    if (!passes(now_ns, payload.size(), is_tagged, true)) return std::nullopt;
+    if (!passes(now_ns, payload.size(), true)) return std::nullopt;
     answer_due_ = false;
     return counted(active_->frame(FrameType::answer, payload));
   }
   if (welcome_ != nullptr) {
-    if (!passes(now_ns, 2 * sizeof(Nonce), is_tagged, false)) return std::nullopt;
+    if (!passes(now_ns, 2 * sizeof(Nonce))) return std::nullopt;
     return counted(welcome(*std::exchange(welcome_, nullptr)));
   }
   if (refusal_) {
-    if (!passes(now_ns, 1, false, false)) return std::nullopt;
+    if (!allows(now_ns, frame_length(1, false), false)) return std::nullopt;
     const Buffer payload{static_cast<std::uint8_t>(refusal_->why)};
     const Header header{FrameType::refusal, false, refusal_->session, ++outside_counter_};
     refusal_.reset();
@@ -221,15 +191,14 @@ std::optional<Buffer> Vehicle::next(std::int64_t now_ns) {
 }
 
 std::optional<Buffer> Vehicle::next_of_session(std::int64_t now_ns) {
-  const bool is_tagged = active_ && options_.key.has_value();
   if (active_ && pong_) {
-    if (!passes(now_ns, pong_->size() + 1, is_tagged, false)) return std::nullopt;
+    if (!passes(now_ns, pong_->size() + 1)) return std::nullopt;
     Buffer payload = *std::exchange(pong_, std::nullopt);
     payload.push_back(static_cast<std::uint8_t>(std::lround(100 * loss())));
     return counted(active_->frame(FrameType::pong, payload));
   }
   if (report_) {
-    if (!passes(now_ns, report_->size(), is_tagged, false)) return std::nullopt;
+    if (!allows(now_ns, frame_length(report_->size(), active_ && options_.key), false)) return std::nullopt;
     const Buffer payload = *std::exchange(report_, std::nullopt);
     // Without an operator the reports go to whoever listens.
     if (!active_)
@@ -237,26 +206,8 @@ std::optional<Buffer> Vehicle::next_of_session(std::int64_t now_ns) {
                                 Direction::to_operator));
     return counted(active_->frame(FrameType::report, payload));
   }
-  return active_ ? next_of_stream(now_ns) : std::nullopt;
-}
-
-std::optional<Buffer> Vehicle::next_of_stream(std::int64_t now_ns) {
-  const bool is_tagged = options_.key.has_value();
-  if (now_ns >= active_->receiver.ack_due_ns()) {
-    if (!passes(now_ns, 12, is_tagged, false)) return std::nullopt;
-    return counted(active_->frame(FrameType::ack, encode_ack(active_->receiver.ack(now_ns))));
-  }
-  wake(active_->receiver.ack_due_ns());
   // Answers wait while nobody hears them.
-  if (peer_ == Peer::dead) return std::nullopt;
-  if (const auto segment = active_->sender.due(now_ns)) {
-    if (!passes(now_ns, segment->size(), is_tagged, false)) return std::nullopt;
-    Buffer frame = active_->frame(FrameType::segment, *segment);
-    active_->sender.sent(now_ns, active_->last_counter());
-    return counted(std::move(frame));
-  }
-  wake(active_->sender.deadline_ns());
-  return std::nullopt;
+  return active_ ? next_of_stream(now_ns, *active_, peer_ != Peer::dead) : std::nullopt;
 }
 
 }  // namespace navcal::link

@@ -15,9 +15,8 @@
 namespace navcal::link {
 
 /// The vehicle's end of the link (docs/remote.md). It sends reports to whoever listens, and has one operator at a
-/// time: whoever proved last to have the key. Who owns one gives it bytes, then calls advance(), takes what has
-/// come, and sends what next() gives until that is nothing; and again at deadline_ns().
-class Vehicle {
+/// time: whoever proved last to have the key. Who owns one calls advance() after it was given bytes.
+class Vehicle final : public End {
  public:
   static constexpr std::int64_t kReport_ns = 500'000'000;
   /// Answers that wait beyond this make further requests wait.
@@ -35,9 +34,8 @@ class Vehicle {
     std::uint64_t session = 0;  ///< 1, 2, 3 ...
   };
 
-  explicit Vehicle(EndOptions options);
+  explicit Vehicle(EndOptions options) : End(std::move(options)) {}
 
-  void take(std::int64_t now_ns, Bytes bytes);
   void advance(std::int64_t now_ns);
   [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
 
@@ -53,21 +51,17 @@ class Vehicle {
   /// The newest report; one that has not been sent is given up.
   void report(std::int64_t now_ns, Buffer payload);
 
-  /// The next frame for the line; it counts as sent.
-  [[nodiscard]] std::optional<Buffer> next(std::int64_t now_ns);
-  /// When next() or advance() may have something to do; right after next() gave nothing.
-  [[nodiscard]] std::int64_t deadline_ns() const { return wake_ns_; }
+  /// deadline_ns() is also that of advance().
+  [[nodiscard]] std::optional<Buffer> next(std::int64_t now_ns) override;
 
   [[nodiscard]] Peer peer() const { return peer_; }
   /// Number of the operator's session; 0: none yet.
   [[nodiscard]] std::uint64_t session() const { return sessions_; }
-  [[nodiscard]] const EndCounters& counters() const { return counters_; }
-  [[nodiscard]] const protocols::Counters& line() const { return parser_.counters(); }
   /// Share of the operator's last frames that was lost.
   [[nodiscard]] double loss() const { return active_ ? active_->arrivals.loss() : 0; }
 
  private:
-  void take_frame(std::int64_t now_ns, const FrameView& view);
+  void take_frame(std::int64_t now_ns, const FrameView& view) override;
   void take_hello(std::int64_t now_ns, const FrameView& view);
   [[nodiscard]] std::unique_ptr<Session> new_session(const Nonce& host) const;
   /// The session of a frame, once the frame has proved to belong to it; null: refused.
@@ -77,20 +71,11 @@ class Vehicle {
   void activate();
   void end_session();
   void refuse(std::int64_t now_ns, const FrameView& view, Refusal why);
-  [[nodiscard]] bool passes(std::int64_t now_ns, std::size_t payload, bool is_tagged, bool is_urgent);
   [[nodiscard]] std::optional<Buffer> next_of_session(std::int64_t now_ns);
-  [[nodiscard]] std::optional<Buffer> next_of_stream(std::int64_t now_ns);
   [[nodiscard]] Buffer welcome(const Session& session) const;
-  [[nodiscard]] Buffer counted(Buffer frame);
-  void wake(std::int64_t time_ns) { wake_ns_ = std::min(wake_ns_, time_ns); }
 
-  EndOptions options_;
-  std::optional<SessionKey> outside_;
-  Parser parser_;
-  Budget budget_;
   std::unique_ptr<Session> active_, pending_;
   Peer peer_ = Peer::none;
-  std::int64_t heard_ns_ = 0;
   std::uint64_t sessions_ = 0;
   std::vector<Event> events_;
   std::optional<Command> command_;
@@ -107,9 +92,6 @@ class Vehicle {
   std::optional<Buffer> pong_;
   std::optional<Buffer> report_;
   std::int64_t report_due_ns_ = 0;
-  std::uint32_t outside_counter_ = 0;
-  std::int64_t wake_ns_ = 0;
-  EndCounters counters_;
 };
 
 }  // namespace navcal::link
