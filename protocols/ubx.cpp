@@ -97,15 +97,4 @@ std::vector<std::uint8_t> encode_frame(MessageCode code, Bytes payload) {
   return frame;
 }
 
-std::vector<std::uint8_t> encode_rtcm3(Bytes message) {
-  assert(message.size() <= 1023);
-  std::vector<std::uint8_t> frame(3 + message.size());
-  frame[0] = 0xD3;
-  put_be(&frame[1], static_cast<std::uint16_t>(message.size()));
-  std::copy(message.begin(), message.end(), frame.begin() + 3);
-  const std::uint32_t crc = crc24q(frame);
-  for (const int shift : {16, 8, 0}) frame.push_back(static_cast<std::uint8_t>(crc >> shift));
-  return frame;
-}
-
 }  // namespace navcal::protocols::ubx

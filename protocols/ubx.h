@@ -82,7 +82,5 @@ using PortParser = StreamParser<PortScanner>;
 
 /// The frame of a message; the payload has at most kMaxPayload bytes.
 [[nodiscard]] std::vector<std::uint8_t> encode_frame(MessageCode code, Bytes payload);
-/// Frame of an RTCM3 message of at most 1023 bytes, for the tests.
-[[nodiscard]] std::vector<std::uint8_t> encode_rtcm3(Bytes message);
 
 }  // namespace navcal::protocols::ubx

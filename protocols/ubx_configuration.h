@@ -61,7 +61,6 @@ struct ConfigurationItem {
 // Keys of generations 9 and 10 that the start-up needs.
 inline constexpr std::uint32_t kRateMeasurement_ms = 0x30210001;  ///< CFG-RATE-MEAS
 inline constexpr std::uint32_t kRateNavigation = 0x30210002;      ///< CFG-RATE-NAV
-inline constexpr std::uint32_t kUart1Baud = 0x40520001;           ///< CFG-UART1-BAUDRATE
 
 /// A port of the receiver. The number is the place of its key after that of UART1, where messages are concerned.
 enum class ReceiverPort : std::uint8_t { uart1 = 0, uart2 = 1, usb = 2 };

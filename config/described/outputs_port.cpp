@@ -56,8 +56,6 @@ field = [
 
 }  // namespace
 
-std::string_view outputs_description() { return kOutputsDescription; }
-
 PortSettings outputs_port() {
   PortSettings port = default_port(std::string(kOutputsPort), protocols::Protocol::described, kOutputsBaud);
   port.device = "actuator-outputs.toml";

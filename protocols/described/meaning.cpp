@@ -154,11 +154,4 @@ const Unit* unit_named(std::string_view name) {
   return found == kUnits.end() ? nullptr : found;
 }
 
-std::string_view sample_unit(Dimension dimension) {
-  if (dimension == Dimension::number || dimension == Dimension::any) return {};
-  const auto* const found =
-      std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& unit) { return unit.dimension == dimension; });
-  return found == kUnits.end() ? std::string_view{} : found->name;
-}
-
 }  // namespace navcal::protocols::described

@@ -112,7 +112,5 @@ struct Unit {
 [[nodiscard]] std::span<const Unit> all_units();
 /// nullptr: there is no such unit.
 [[nodiscard]] const Unit* unit_named(std::string_view name);
-/// The unit of samples for a dimension: "rad/s"; empty for numbers.
-[[nodiscard]] std::string_view sample_unit(Dimension dimension);
 
 }  // namespace navcal::protocols::described

@@ -324,7 +324,7 @@ TEST_F(DescribedPort, ARoleThatTheDescriptionLacks) {
 
 TEST(OutputsPort, IsDescribedByTheShippedFile) {
   EXPECT_EQ(navcal::test::read_file(NAVCAL_SOURCE_DIR "/share/devices/actuator-outputs.toml"),
-            outputs_description());
+            outputs_port().description);
   EXPECT_EQ(outputs_port().described->name, "actuator outputs");
 }
 

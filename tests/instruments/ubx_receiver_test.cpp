@@ -12,6 +12,7 @@
 #include "protocols/wire_fields.h"
 #include "tests/instruments/collector.h"
 #include "tests/protocols/shared_capture.h"
+#include "tests/protocols/ubx_samples.h"
 
 namespace navcal::instruments {
 namespace {
@@ -336,7 +337,7 @@ TEST_F(UbxSamples, NmeaIsReadOnlyWhereNoNavPvtComes) {
 }
 
 TEST_F(UbxSamples, Rtcm3IsPassedOver) {
-  take(ubx::encode_rtcm3(std::vector<std::uint8_t>{0x3E, 0xD0, 0, 3}));
+  take(protocols::test::encode_rtcm3({0x3E, 0xD0, 0, 3}));
   EXPECT_EQ(collector.verdicts, std::vector<Verdict>{Verdict::ignored});
 }
 

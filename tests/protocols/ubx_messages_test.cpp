@@ -81,13 +81,14 @@ TEST(UbxMessages, TheNanosecondMayBeNegative) {
 }
 
 TEST(UbxMessages, Configuration) {
+  constexpr std::uint32_t kUart1Baud = 0x40520001;
   const ubx::Acknowledgement refused{ubx::kCfgValset, false};
   EXPECT_EQ(ubx::decode_acknowledgement(ubx::encode_acknowledgement(refused)), refused);
   const ubx::MessageRate rate{ubx::kNavPvt, 5};
   EXPECT_EQ(ubx::decode_cfg_msg(ubx::encode_cfg_msg(rate)), rate);
   const ubx::ValueSet set{ubx::ram | ubx::flash,
                           {{ubx::kRateMeasurement_ms, 100},
-                           {ubx::kUart1Baud, 115200},
+                           {kUart1Baud, 115200},
                            {ubx::key_of_ubx_output(ubx::ReceiverPort::uart1), 1}}};
   const Buffer frame = ubx::encode_cfg_valset(set.layers, set.items);
   EXPECT_EQ(ubx::decode_cfg_valset(frame), set);

@@ -16,6 +16,19 @@ inline double on_step(Random& random, std::int64_t low, std::int64_t high, doubl
          step;
 }
 
+/// Frame of an RTCM3 message of at most 1023 bytes. Its CRC-24Q bit by bit, unlike the decoder's.
+inline Buffer encode_rtcm3(const Buffer& message) {
+  Buffer frame{0xD3, static_cast<std::uint8_t>(message.size() >> 8), static_cast<std::uint8_t>(message.size())};
+  frame.insert(frame.end(), message.begin(), message.end());
+  std::uint32_t crc = 0;
+  for (const std::uint8_t byte : frame) {
+    crc ^= std::uint32_t{byte} << 16;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x800000U) != 0 ? (crc << 1 ^ 0x1864CFBU) : crc << 1;
+  }
+  for (const int shift : {16, 8, 0}) frame.push_back(static_cast<std::uint8_t>(crc >> shift));
+  return frame;
+}
+
 inline ubx::NavPvt random_pvt(Random& random) {
   ubx::NavPvt pvt;
   pvt.time_of_week_ms = static_cast<std::uint32_t>(below(random, 604'800'000));
@@ -81,7 +94,7 @@ inline Buffer random_ubx_frame(Random& random) {
 inline Buffer random_ubx_port_frame(Random& random) {
   switch (below(random, 4)) {
     case 0: return checked_line("GPVTG,,T,,M,0.0,N,0.0,K,A");
-    case 1: return ubx::encode_rtcm3(Buffer(below(random, 200), 0xD3));
+    case 1: return encode_rtcm3(Buffer(below(random, 200), 0xD3));
     default: return random_ubx_frame(random);
   }
 }

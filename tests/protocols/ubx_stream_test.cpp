@@ -28,13 +28,13 @@ TEST(UbxStream, EveryCutAndEveryFlippedBit) {
   append(stream, frame);
   EXPECT_TRUE(every_cut_gives_a_prefix<ubx::PortScanner>(stream));
   EXPECT_TRUE(every_flipped_bit_shows<ubx::PortScanner>(frame));
-  EXPECT_TRUE(every_flipped_bit_shows<ubx::PortScanner>(ubx::encode_rtcm3(Buffer(40, 0x5A))));
+  EXPECT_TRUE(every_flipped_bit_shows<ubx::PortScanner>(encode_rtcm3(Buffer(40, 0x5A))));
 }
 
 TEST(UbxStream, KindsAreTold) {
   Buffer stream = ubx::encode_frame(0x1234, Buffer{1, 2, 3});
   append(stream, bytes_of(line("GNRMC,,V,,,,,,,,,,N")));
-  append(stream, ubx::encode_rtcm3(Buffer{0x3E, 0xD0, 0, 3}));
+  append(stream, encode_rtcm3(Buffer{0x3E, 0xD0, 0, 3}));
   std::string kinds;
   ubx::PortParser parser;
   parser.feed(stream, [&](const Frame& frame) {
@@ -67,7 +67,7 @@ TEST(UbxStream, KnownChecksums) {
   // Poll of MON-VER as the interface description's checksum rule gives it by hand: 0A 04 00 00.
   EXPECT_EQ(ubx::encode_frame(0x0A04, {}), (Buffer{0xB5, 0x62, 0x0A, 0x04, 0, 0, 0x0E, 0x34}));
   // The empty message of RTCM3, whose CRC-24Q is published.
-  EXPECT_EQ(ubx::encode_rtcm3({}), (Buffer{0xD3, 0, 0, 0x47, 0xEA, 0x4B}));
+  EXPECT_EQ(encode_rtcm3({}), (Buffer{0xD3, 0, 0, 0x47, 0xEA, 0x4B}));
 }
 
 TEST(UbxStream, ATooLongMessageDoesNotHoldTheParser) {
