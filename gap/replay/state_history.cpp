@@ -7,7 +7,7 @@
 namespace navcal::gap {
 namespace {
 
-/// Memory: a GPS may be late by ten seconds (sim/effects/library/gps_latency.cpp).
+/// Memory: a GPS may be late by ten seconds (gps_latency in sim/effects/library/receiver.cpp).
 constexpr double kRemembered_s = 12;
 
 void add_difference(sim::Vector3& sum, const sim::Vector3& after, const sim::Vector3& before) {

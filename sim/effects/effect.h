@@ -57,6 +57,7 @@ class Effect {
 template <class Self, const EffectDescription& kAbout>
 class EffectOf : public Effect {
  public:
+  static constexpr std::string_view kName = kAbout.name;
   [[nodiscard]] const EffectDescription& description() const final { return kAbout; }
   [[nodiscard]] std::unique_ptr<Effect> clone() const final {
     return std::make_unique<Self>(static_cast<const Self&>(*this));

@@ -9,7 +9,7 @@
 
 namespace navcal::sim {
 
-/// The files of sim/effects/library, each of which defines make_NAME(): the table is written by CMake.
+/// An effect of sim/effects/library.
 struct EffectEntry {
   std::string_view name;
   std::unique_ptr<Effect> (*make)();

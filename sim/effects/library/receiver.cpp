@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/effects/effect.h"
+#include "sim/effects/library/library.h"
 
 namespace navcal::sim {
 namespace {
+
+constexpr EffectDescription kGpsLatency{.name = "gps_latency",
+                                        .equation = "p(t - tau), v(t - tau)",
+                                        .parameters = {{"tau_s", 1, 0, 10}},
+                                        .manoeuvre = "run straight at the surface at two speeds",
+                                        .confounders = {"gps_lever_arm"},
+                                        .kind = EffectKind::lag};
+
+/// Position and velocity are older than the second that the message states.
+class GpsLatency final : public EffectOf<GpsLatency, kGpsLatency> {
+ public:
+  void delays(Delays& more) override { more.gps_s += p_[0]; }
+};
 
 constexpr EffectDescription kGpsLeverArm{.name = "gps_lever_arm",
                                          .equation = "p += R l, v += R (w x l)",
@@ -24,6 +37,6 @@ class GpsLeverArm final : public EffectOf<GpsLeverArm, kGpsLeverArm> {
 
 }  // namespace
 
-std::unique_ptr<Effect> make_gps_lever_arm() { return std::make_unique<GpsLeverArm>(); }
+std::span<const EffectEntry> effects_of_receiver() { return entries_of<GpsLatency, GpsLeverArm>(); }
 
 }  // namespace navcal::sim

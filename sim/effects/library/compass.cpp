@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+
+#include "base/angles.h"
+#include "sim/effects/library/library.h"
+#include "sim/effects/low_pass.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr EffectDescription kCompassLag{.name = "compass_lag",
+                                        .equation = "tau m' + m = field",
+                                        .parameters = {{"tau_s", 0.2, 0, 10}},
+                                        .manoeuvre = "turn both ways at two different rates",
+                                        .confounders = {"imu_latency", "gyro_scale"},
+                                        .order = 4,
+                                        .kind = EffectKind::lag};
+
+/// The compass filters its magnetometers, hence its heading.
+class CompassLag final : public EffectOf<CompassLag, kCompassLag> {
+ public:
+  void body_field(const Instant& now, Vector3& field_body_uT) override {
+    field_body_uT = filter_.at(now.time_s, field_body_uT, p_[0]);
+  }
+
+ private:
+  LowPass filter_;
+};
+
+constexpr EffectDescription kCompassMisalignment{
+    .name = "compass_misalignment",
+    .equation = "m = (1 - [a]x) m, as a rotation",
+    .parameters = {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}},
+    .manoeuvre = "steer by GPS course and pitch up and down",
+    .confounders = {"tilt_offset", "declination", "hard_iron", "soft_iron"},
+    .vector = 3,
+    .order = 1};
+
+/// The triad of magnetometers is turned by the vector a against body and inclinometer.
+class CompassMisalignment final : public EffectOf<CompassMisalignment, kCompassMisalignment> {
+ public:
+  void body_field(const Instant&, Vector3& field_body_uT) override {
+    const double angle = std::hypot(p_[0], p_[1], p_[2]) * base::kRadiansPerDegree;
+    if (angle == 0) return;
+    const Vector3 m = field_body_uT;
+    Vector3 axis{};
+    add_scaled(axis, base::kRadiansPerDegree / angle, vector());
+    const double along = axis[0] * m[0] + axis[1] * m[1] + axis[2] * m[2];
+    // Rodrigues' formula, backwards.
+    for (double& component : field_body_uT) component *= std::cos(angle);
+    add_scaled(field_body_uT, -std::sin(angle), cross(axis, m));
+    add_scaled(field_body_uT, (1 - std::cos(angle)) * along, axis);
+  }
+};
+
+constexpr EffectDescription kDeclination{.name = "declination",
+                                         .equation = "B = Rz(d) B",
+                                         .parameters = {{"angle_deg", 4, -180, 180}},
+                                         .manoeuvre = "run straight at the surface on three headings",
+                                         .confounders = {"compass_misalignment", "water_current"}};
+
+/// The earth's field is turned about the vertical, positive to the east.
+class Declination final : public EffectOf<Declination, kDeclination> {
+ public:
+  void earth_field(const Instant&, Vector3& field_world_uT) override {
+    const double c = std::cos(p_[0] * base::kRadiansPerDegree), s = std::sin(p_[0] * base::kRadiansPerDegree);
+    const auto [north, east, down] = field_world_uT;
+    field_world_uT = {c * north - s * east, s * north + c * east, down};
+  }
+};
+
+constexpr EffectDescription kHardIron{
+    .name = "hard_iron",
+    .equation = "m += b",
+    .parameters = {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}},
+    .manoeuvre = "turn full circles with pitch of both signs",
+    .confounders = {"soft_iron", "compass_misalignment", "motor_field", "mag_temperature"},
+    .vector = 3};
+
+/// Permanent magnetism of the vehicle.
+class HardIron final : public EffectOf<HardIron, kHardIron> {
+ public:
+  void body_field(const Instant&, Vector3& field_body_uT) override { add_scaled(field_body_uT, 1, vector()); }
+};
+
+constexpr EffectDescription kMagTemperature{
+    .name = "mag_temperature",
+    .equation = "m += c T, T above 15 C",
+    .parameters = {{"x_uT_per_C", 0.15, -10, 10}, {"y_uT_per_C", 0.15, -10, 10}, {"z_uT_per_C", 0.15, -10, 10}},
+    .manoeuvre = "let the electronics warm up with the motor off",
+    .confounders = {"hard_iron", "gyro_drift"},
+    .vector = 3};
+
+/// The magnetometers' zeros move as the electronics warm up.
+class MagTemperature final : public EffectOf<MagTemperature, kMagTemperature> {
+ public:
+  void body_field(const Instant& now, Vector3& field_body_uT) override {
+    add_scaled(field_body_uT, now.temperature_rise_C(), vector());
+  }
+};
+
+constexpr double kMemory_s = 60;
+
+constexpr EffectDescription kMagneticHysteresis{.name = "magnetic_hysteresis",
+                                                .equation = "m += k lowpass(m, 60 s)",
+                                                .parameters = {{"gain", 0.06, -0.03, 1}},
+                                                .manoeuvre = "come to the same heading from both sides",
+                                                .confounders = {"hard_iron", "soft_iron"},
+                                                .order = 2};
+
+/// Iron that remembers the field of the last minute.
+class MagneticHysteresis final : public EffectOf<MagneticHysteresis, kMagneticHysteresis> {
+ public:
+  void body_field(const Instant& now, Vector3& field_body_uT) override {
+    add_scaled(field_body_uT, p_[0], memory_.at(now.time_s, field_body_uT, kMemory_s));
+  }
+
+ private:
+  LowPass memory_;
+};
+
+constexpr EffectDescription kMotorField{
+    .name = "motor_field",
+    .equation = "m += k I",
+    .parameters = {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}},
+    .manoeuvre = "step the motor current on a constant heading",
+    .confounders = {"hard_iron", "adc_droop"},
+    .vector = 3};
+
+/// The motor's supply makes a field of its own.
+class MotorField final : public EffectOf<MotorField, kMotorField> {
+ public:
+  void body_field(const Instant& now, Vector3& field_body_uT) override {
+    add_scaled(field_body_uT, now.state.motor_current_A, vector());
+  }
+};
+
+// The Frobenius norm of S counts, in which what stands off the diagonal counts twice.
+constexpr double kNorm = 0.05;
+
+constexpr EffectDescription kSoftIron{.name = "soft_iron",
+                                      .equation = "m = (1 + S) m, S symmetric",
+                                      .parameters = {{"xx", kNorm, -0.5, 0.5},
+                                                     {"yy", kNorm, -0.5, 0.5},
+                                                     {"zz", kNorm, -0.5, 0.5},
+                                                     {"xy", kNorm / std::numbers::sqrt2, -0.5, 0.5},
+                                                     {"xz", kNorm / std::numbers::sqrt2, -0.5, 0.5},
+                                                     {"yz", kNorm / std::numbers::sqrt2, -0.5, 0.5}},
+                                      .manoeuvre = "turn full circles at two pitch angles",
+                                      .confounders = {"hard_iron", "compass_misalignment", "magnetic_hysteresis"},
+                                      .vector = 6,
+                                      .order = 0};
+
+/// Iron that the field itself magnetises, without preferred rotation.
+class SoftIron final : public EffectOf<SoftIron, kSoftIron> {
+ public:
+  void body_field(const Instant&, Vector3& field_body_uT) override {
+    const auto [xx, yy, zz, xy, xz, yz] = p_;
+    const Matrix3 more{{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
+    add_scaled(field_body_uT, 1, more * field_body_uT);
+  }
+};
+
+constexpr EffectDescription kTiltOffset{.name = "tilt_offset",
+                                        .equation = "tilt += o",
+                                        .parameters = {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}},
+                                        .manoeuvre = "pitch up and down by the same angle",
+                                        .confounders = {"accel_bias", "compass_misalignment"}};
+
+/// The inclinometer is mounted askew.
+class TiltOffset final : public EffectOf<TiltOffset, kTiltOffset> {
+ public:
+  void tilt_said(const Instant&, Tilt& tilt) override {
+    tilt.roll_rad += p_[0] * base::kRadiansPerDegree;
+    tilt.pitch_rad += p_[1] * base::kRadiansPerDegree;
+  }
+};
+
+constexpr EffectDescription kTiltSlosh{.name = "tilt_slosh",
+                                       .equation = "roll -= k a_y/g, pitch += k a_x/g, before the fluid's lag",
+                                       .parameters = {{"gain", 0.3, -0.15, 2}},
+                                       .manoeuvre = "turn at one rate and two speeds"};
+
+/// The inclinometer's fluid sees gravity less a share of the vehicle's acceleration.
+class TiltSlosh final : public EffectOf<TiltSlosh, kTiltSlosh> {
+ public:
+  void tilt_seen(const Instant& now, Tilt& tilt) override {
+    const Vector3 acceleration = now.acceleration_m_s2();
+    tilt.roll_rad -= p_[0] * acceleration[1] / kGravity_m_s2;
+    tilt.pitch_rad += p_[0] * acceleration[0] / kGravity_m_s2;
+  }
+};
+
+}  // namespace
+
+std::span<const EffectEntry> effects_of_compass() {
+  return entries_of<CompassLag, CompassMisalignment, Declination, HardIron, MagTemperature, MagneticHysteresis,
+                    MotorField, SoftIron, TiltOffset, TiltSlosh>();
+}
+
+}  // namespace navcal::sim

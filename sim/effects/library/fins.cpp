@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numbers>
+
+#include "sim/effects/library/library.h"
+#include "sim/effects/low_pass.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr EffectDescription kElevatorOffset{.name = "elevator_offset",
+                                            .equation = "d += mixed elevator o",
+                                            .parameters = {{"angle_deg", 1, -20, 20}},
+                                            .manoeuvre = "elevator doublets, level",
+                                            .confounders = {"fin_gain", "fin_offset"},
+                                            .place = EffectPlace::vehicle};
+
+/// The fins stand off in the sense of an elevator command, between servo and fin.
+class ElevatorOffset final : public EffectOf<ElevatorOffset, kElevatorOffset> {
+ public:
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
+    const double elevator_rad = p_[0] * std::numbers::pi / 180;
+    constexpr double kShare = std::numbers::sqrt3 / 2;  // docs/simulator.md: how rudder and elevator mix
+    add_scaled(fins_rad, elevator_rad, {0, kShare, -kShare});
+  }
+};
+
+constexpr EffectDescription kFinBacklash{.name = "fin_backlash",
+                                         .equation = "d stays within b/2 of the servo",
+                                         .parameters = {{"width_deg", 2, 0, 30}},
+                                         .manoeuvre = "small fin reversals about zero",
+                                         .confounders = {"fin_lag"},
+                                         .place = EffectPlace::vehicle,
+                                         .order = 2,
+                                         .kind = EffectKind::backlash};
+
+/// Backlash of total width b between the servo that is reported and the fin.
+class FinBacklash final : public EffectOf<FinBacklash, kFinBacklash> {
+ public:
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
+    if (!begun_) fins_rad_ = fins_rad;
+    begun_ = true;
+    const double half_rad = p_[0] * std::numbers::pi / 360;
+    for (std::size_t i = 0; i < 3; ++i) {
+      fins_rad_[i] = std::clamp(fins_rad_[i], fins_rad[i] - half_rad, fins_rad[i] + half_rad);
+    }
+    fins_rad = fins_rad_;
+  }
+
+ private:
+  Vector3 fins_rad_{};
+  bool begun_ = false;
+};
+
+constexpr EffectDescription kFinGain{.name = "fin_gain",
+                                     .equation = "d *= 1 + k",
+                                     .parameters = {{"scale", 0.08, -0.9, 1}},
+                                     .manoeuvre = "rudder doublets of two sizes at two speeds",
+                                     .confounders = {"fin_lag", "yaw_damping", "thrust_scale"},
+                                     .place = EffectPlace::vehicle,
+                                     .order = 0};
+
+/// The fin turns further than the servo that is reported.
+class FinGain final : public EffectOf<FinGain, kFinGain> {
+ public:
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
+    for (double& fin_rad : fins_rad) fin_rad *= 1 + p_[0];
+  }
+};
+
+constexpr EffectDescription kFinLag{.name = "fin_lag",
+                                    .equation = "tau d' + d = servo",
+                                    .parameters = {{"tau_s", 0.2, 0, 5}},
+                                    .manoeuvre = "fast rudder doublets",
+                                    .confounders = {"fin_gain", "yaw_damping", "thrust_scale", "imu_latency"},
+                                    .place = EffectPlace::vehicle,
+                                    .order = 1,
+                                    .kind = EffectKind::lag};
+
+/// A further lag between the servo that is reported and the fin.
+class FinLag final : public EffectOf<FinLag, kFinLag> {
+ public:
+  void link_fins(double /*time_s*/, double step_s, Vector3& fins_rad) override {
+    elapsed_s_ += step_s;
+    fins_rad = filter_.at(elapsed_s_, fins_rad, p_[0]);
+  }
+
+ private:
+  LowPass filter_;
+  double elapsed_s_ = 0;
+};
+
+constexpr EffectDescription kFinOffset{.name = "fin_offset",
+                                       .equation = "d += mixed rudder o",
+                                       .parameters = {{"angle_deg", 1, -20, 20}},
+                                       .manoeuvre = "rudder doublets, straight",
+                                       .confounders = {"fin_gain", "elevator_offset"},
+                                       .place = EffectPlace::vehicle};
+
+/// The fins stand off in the sense of a rudder command, between servo and fin.
+class FinOffset final : public EffectOf<FinOffset, kFinOffset> {
+ public:
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
+    const double rudder_rad = p_[0] * std::numbers::pi / 180;
+    add_scaled(fins_rad, rudder_rad, {-1, 0.5, 0.5});  // docs/simulator.md: how rudder and elevator mix
+  }
+};
+
+}  // namespace
+
+std::span<const EffectEntry> effects_of_fins() {
+  return entries_of<ElevatorOffset, FinBacklash, FinGain, FinLag, FinOffset>();
+}
+
+}  // namespace navcal::sim

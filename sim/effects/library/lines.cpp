@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "sim/effects/library/library.h"
+#include "sim/noise.h"
+
+namespace navcal::sim {
+namespace {
+
+/// Effect on the lines, with random numbers of each instrument's own, so that what happens to one does not depend
+/// on when another is asked.
+template <class Self, const EffectDescription& kAbout>
+class OnEachLine : public EffectOf<Self, kAbout> {
+ public:
+  void reseed(std::uint64_t seed) override {
+    for (std::size_t i = 0; i < noises_.size(); ++i) noises_[i] = Noise(seed + i);
+  }
+
+ protected:
+  /// The parameter of this instrument.
+  [[nodiscard]] double parameter(Instrument of) const { return this->p_[static_cast<std::size_t>(of)]; }
+  /// Uniform in [0, 1).
+  [[nodiscard]] double random(Instrument of) { return noises_[static_cast<std::size_t>(of)].uniform(0, 1); }
+
+ private:
+  std::array<Noise, kInstruments> noises_{Noise(1), Noise(2), Noise(3), Noise(4)};
+};
+
+constexpr EffectDescription kArrivalJitter{.name = "arrival_jitter",
+                                           .equation = "arrival += Exp(mean)",
+                                           .parameters = {{"compass_mean_s", 0.005, 0, 1},
+                                                          {"imu_mean_s", 0.005, 0, 1},
+                                                          {"gps_mean_s", 0.005, 0, 1},
+                                                          {"motor_mean_s", 0.005, 0, 1}},
+                                           .manoeuvre = TellingManoeuvre::none(),
+                                           .place = EffectPlace::lines};
+
+/// The host takes frames late, by exponential delays.
+class ArrivalJitter final : public OnEachLine<ArrivalJitter, kArrivalJitter> {
+ public:
+  void line(Instrument of, double, Transmission& way) override {
+    way.late_s -= parameter(of) * std::log1p(-random(of));
+  }
+};
+
+constexpr EffectDescription kClockError{.name = "clock_error",
+                                        .equation = "period *= 1 + e",
+                                        .parameters = {{"compass_ppm", 100, -10000, 10000},
+                                                       {"imu_ppm", 100, -10000, 10000},
+                                                       {"motor_ppm", 100, -10000, 10000}},
+                                        .manoeuvre = TellingManoeuvre::none(),
+                                        .place = EffectPlace::lines};
+
+/// The clocks of compass and cards run slow; the receiver's is that of its satellites.
+class ClockError final : public EffectOf<ClockError, kClockError> {
+ public:
+  void clock(Instrument of, double& slow_ppm) override {
+    if (of == Instrument::compass) slow_ppm += p_[0];
+    if (of == Instrument::imu) slow_ppm += p_[1];
+    if (of == Instrument::motor) slow_ppm += p_[2];
+  }
+};
+
+constexpr EffectDescription kDroppedFrames{.name = "dropped_frames",
+                                           .equation = "lost with probability p",
+                                           .parameters = {{"compass_probability", 0.02, 0, 1},
+                                                          {"imu_probability", 0.02, 0, 1},
+                                                          {"gps_probability", 0.02, 0, 1},
+                                                          {"motor_probability", 0.02, 0, 1}},
+                                           .manoeuvre = TellingManoeuvre::none(),
+                                           .place = EffectPlace::lines};
+
+/// Frames are lost on their way to the host.
+class DroppedFrames final : public OnEachLine<DroppedFrames, kDroppedFrames> {
+ public:
+  void line(Instrument of, double, Transmission& way) override {
+    if (random(of) < parameter(of)) way.copies = 0;
+  }
+};
+
+constexpr EffectDescription kNoiseLevel{
+    .name = "noise_level",
+    .equation = "sigma *= 1 + k",
+    .parameters = {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
+    .manoeuvre = TellingManoeuvre::none(),
+    .place = EffectPlace::lines};
+
+/// Every instrument's noise is stronger.
+class NoiseLevel final : public EffectOf<NoiseLevel, kNoiseLevel> {
+ public:
+  void noise(Instrument of, double& factor) override { factor *= 1 + p_[static_cast<std::size_t>(of)]; }
+};
+
+constexpr EffectDescription kRepeatedFrames{.name = "repeated_frames",
+                                            .equation = "twice with probability p",
+                                            .parameters = {{"compass_probability", 0.02, 0, 1},
+                                                           {"imu_probability", 0.02, 0, 1},
+                                                           {"gps_probability", 0.02, 0, 1},
+                                                           {"motor_probability", 0.02, 0, 1}},
+                                            .manoeuvre = TellingManoeuvre::none(),
+                                            .place = EffectPlace::lines};
+
+/// Frames come twice.
+class RepeatedFrames final : public OnEachLine<RepeatedFrames, kRepeatedFrames> {
+ public:
+  void line(Instrument of, double, Transmission& way) override {
+    if (random(of) < parameter(of)) way.copies *= 2;
+  }
+};
+
+constexpr EffectDescription kStalls{.name = "stalls",
+                                    .equation = "at random instants, so many a minute",
+                                    .parameters = {{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}},
+                                    .manoeuvre = TellingManoeuvre::none(),
+                                    .place = EffectPlace::lines};
+
+/// The host takes nothing from a line for a while, then all at once; each line on its own.
+class Stalls final : public OnEachLine<Stalls, kStalls> {
+ public:
+  void line(Instrument of, double time_s, Transmission& way) override {
+    if (p_[0] <= 0 || p_[1] <= 0) return;
+    double& next_s = next_s_[static_cast<std::size_t>(of)];
+    const auto pause_s = [&] { return -60 / p_[1] * std::log1p(-random(of)); };
+    if (next_s < 0) next_s = time_s + pause_s();
+    while (time_s >= next_s + p_[0]) next_s += p_[0] + pause_s();
+    if (time_s >= next_s) way.held_until_s = std::max(way.held_until_s, next_s + p_[0]);
+  }
+
+ private:
+  std::array<double, kInstruments> next_s_{-1, -1, -1, -1};
+};
+
+}  // namespace
+
+std::span<const EffectEntry> effects_of_lines() {
+  return entries_of<ArrivalJitter, ClockError, DroppedFrames, NoiseLevel, RepeatedFrames, Stalls>();
+}
+
+}  // namespace navcal::sim

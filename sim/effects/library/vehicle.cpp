@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/effects/library/library.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr EffectDescription kBuoyancy{.name = "buoyancy",
+                                      .equation = "Z_world -= F at the origin",
+                                      .parameters = {{"force_N", 0.4, -20, 20}},
+                                      .manoeuvre = "glide or hover with the propeller off",
+                                      .confounders = {"depth_scale", "elevator_offset"},
+                                      .place = EffectPlace::vehicle};
+
+/// The vehicle is not of the water's weight.
+class Buoyancy final : public EffectOf<Buoyancy, kBuoyancy> {
+ public:
+  void influence(double /*time_s*/, Influences& on) override { on.buoyancy_N += p_[0]; }
+};
+
+constexpr EffectDescription kThrustScale{.name = "thrust_scale",
+                                         .equation = "thrust *= 1 + k",
+                                         .parameters = {{"scale", 0.08, -0.9, 1}},
+                                         .manoeuvre = "run reciprocal legs with speed steps at the surface",
+                                         .confounders = {"water_current", "fin_gain", "accel_scale"},
+                                         .place = EffectPlace::vehicle};
+
+/// The propeller pushes more than nominal.
+class ThrustScale final : public EffectOf<ThrustScale, kThrustScale> {
+ public:
+  void influence(double /*time_s*/, Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
+};
+
+constexpr EffectDescription kWaterCurrent{.name = "water_current",
+                                          .equation = "v_world += c",
+                                          .parameters = {{"north_m_s", 0.06, -5, 5}, {"east_m_s", 0.06, -5, 5}},
+                                          .manoeuvre = "run reciprocal legs at the surface",
+                                          .confounders = {"thrust_scale", "declination"},
+                                          .place = EffectPlace::vehicle,
+                                          .vector = 2};
+
+/// The water moves over the ground.
+class WaterCurrent final : public EffectOf<WaterCurrent, kWaterCurrent> {
+ public:
+  void influence(double /*time_s*/, Influences& on) override {
+    on.current_m_s[0] += p_[0];
+    on.current_m_s[1] += p_[1];
+  }
+};
+
+constexpr EffectDescription kYawDamping{.name = "yaw_damping",
+                                        .equation = "N -= k M66 r",
+                                        .parameters = {{"per_s", 0.3, -0.15, 10}},
+                                        .manoeuvre = "rudder doublets of two sizes at two speeds",
+                                        .confounders = {"fin_gain", "fin_lag", "thrust_scale"},
+                                        .place = EffectPlace::vehicle};
+
+/// The hull resists turning more than nominal.
+class YawDamping final : public EffectOf<YawDamping, kYawDamping> {
+ public:
+  void influence(double /*time_s*/, Influences& on) override { on.yaw_damping_per_s += p_[0]; }
+};
+
+}  // namespace
+
+std::span<const EffectEntry> effects_of_vehicle() {
+  return entries_of<Buoyancy, ThrustScale, WaterCurrent, YawDamping>();
+}
+
+}  // namespace navcal::sim
