@@ -48,13 +48,9 @@ ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file) {
 }
 
 std::optional<config::Layout> layout_in(const std::filesystem::path& file) {
-  try {
-    ChosenVehicle vehicle = load_chosen_vehicle(file);
-    auto* const layout = std::get_if<config::Layout>(&vehicle);
-    return layout != nullptr ? std::optional(std::move(*layout)) : std::nullopt;
-  } catch (const config::Error& error) {
-    throw Failure(Exit::bad_input, error.what());
-  }
+  ChosenVehicle vehicle = load_chosen_vehicle(file);
+  auto* const layout = std::get_if<config::Layout>(&vehicle);
+  return layout != nullptr ? std::optional(std::move(*layout)) : std::nullopt;
 }
 
 void expect_simulable(const config::Layout& layout, const std::filesystem::path& file,

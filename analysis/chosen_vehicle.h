@@ -21,7 +21,7 @@ using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
 /// thruster, surface, ballast and moving_mass is a layout. Throws config::Error.
 [[nodiscard]] ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file);
 
-/// The layout of a file; nullopt where the file is none, or there is no file. Throws Failure.
+/// The layout of a file; nullopt where the file is none, or there is no file. Throws config::Error.
 [[nodiscard]] std::optional<config::Layout> layout_in(const std::filesystem::path& file);
 
 struct LayoutOnMission {

@@ -62,19 +62,9 @@ SimulatedRun under_way(const SimulateArguments& arguments, sim::VehicleInfluence
 }  // namespace
 
 SimulatedRun simulate_motion(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer) {
-  try {
-    SimulatedRun run = arguments.path.empty() ? under_way(arguments, influencer) : along_path(arguments);
-    run.motion = std::make_unique<sim::MotionInField>(std::move(run.motion), arguments.place.field_world_uT);
-    return run;
-  } catch (const sim::BadPath& error) {
-    throw Failure(Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw Failure(Exit::bad_input, error.what());
-  } catch (const sim::UnfitLayout& error) {
-    throw Failure(Exit::failed, error.what());
-  } catch (const sim::UnstableVehicle& error) {
-    throw Failure(Exit::failed, error.what());
-  }
+  SimulatedRun run = arguments.path.empty() ? under_way(arguments, influencer) : along_path(arguments);
+  run.motion = std::make_unique<sim::MotionInField>(std::move(run.motion), arguments.place.field_world_uT);
+  return run;
 }
 
 }  // namespace navcal::analysis

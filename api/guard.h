@@ -14,6 +14,7 @@
 #include "analysis/failure.h"
 #include "config/error.h"
 #include "record/recording.h"
+#include "sim/path.h"
 
 namespace navcal::api {
 
@@ -70,6 +71,8 @@ auto guarded(Job&& job) -> decltype(job()) {
   } catch (const record::BadRecording& error) {
     throw Error(ErrorKind::bad_input, error.what());
   } catch (const config::Error& error) {
+    throw Error(ErrorKind::bad_input, error.what());
+  } catch (const sim::BadPath& error) {
     throw Error(ErrorKind::bad_input, error.what());
   } catch (const analysis::Failure& error) {
     throw Error(kind_of(error), error.what());

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "analysis/calibrate_run.h"
@@ -29,44 +28,36 @@ struct CalibrateCommandOptions {
 };
 
 void calibrate(const CalibrateCommandOptions& options) {
-  try {
-    if (!options.report.empty()) expect_folder_of(options.report);
-    std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
-    inputs.emplace_back(options.config);
-    expect_no_overwriting(inputs, {options.report});
-    const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
-                                                 : config::load(options.config);
-    std::optional<analysis::CalibrateHistory> history;
-    if (!options.report.empty()) history.emplace(settings);
-    analysis::CalibrateRun run(settings, history ? &*history : nullptr);
-    for (const std::string& file : options.files) {
-      analysis::Progress progress("calibrate");
-      run.play(file, [&progress](double share) { progress.show(share); });
-    }
-    const calib::Report report = run.finish();
-    for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
+  if (!options.report.empty()) expect_folder_of(options.report);
+  std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
+  inputs.emplace_back(options.config);
+  expect_no_overwriting(inputs, {options.report});
+  const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
+                                               : config::load(options.config);
+  std::optional<analysis::CalibrateHistory> history;
+  if (!options.report.empty()) history.emplace(settings);
+  analysis::CalibrateRun run(settings, history ? &*history : nullptr);
+  for (const std::string& file : options.files) {
+    analysis::Progress progress("calibrate");
+    run.play(file, [&progress](double share) { progress.show(share); });
+  }
+  const calib::Report report = run.finish();
+  for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
 
-    std::string answer;
-    if (options.json) {
-      record::append_calibrate_json(answer, report);
-      answer += '\n';
-    } else {
-      answer = report::calibrate_text(report, run.duration_s());
-    }
-    analysis::Output output(STDOUT_FILENO, "standard output");
-    output.append(base::printable(answer, "\n"));
-    output.flush();
-    if (history) {
-      const report::PageSource source{options.files, options.config, run.settings(), run.duration_s(),
-                                      run.remarks()};
-      write_result(options.report, report::calibrate_page(report, *history, source));
-    }
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
+  std::string answer;
+  if (options.json) {
+    record::append_calibrate_json(answer, report);
+    answer += '\n';
+  } else {
+    answer = report::calibrate_text(report, run.duration_s());
+  }
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(base::printable(answer, "\n"));
+  output.flush();
+  if (history) {
+    const report::PageSource source{options.files, options.config, run.settings(), run.duration_s(),
+                                    run.remarks()};
+    write_result(options.report, report::calibrate_page(report, *history, source));
   }
 }
 

@@ -85,11 +85,7 @@ std::optional<protocols::described::Description> description_for(const DecodeArg
                                                                  const PortBytes* port) {
   if (arguments.device.empty())
     return port != nullptr && arguments.protocol.empty() ? port->settings().described : std::nullopt;
-  try {
-    return config::load_description(arguments.device);
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  }
+  return config::load_description(arguments.device);
 }
 
 void run(const DecodeArguments& arguments) {

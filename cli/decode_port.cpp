@@ -9,7 +9,7 @@
 
 namespace navcal::cli {
 
-PortBytes::PortBytes(const std::string& file, const std::string& port) try
+PortBytes::PortBytes(const std::string& file, const std::string& port)
     : recording_(record::Recording::open(file)) {
   const auto& ports = recording_->settings().ports;
   std::string names;
@@ -19,23 +19,17 @@ PortBytes::PortBytes(const std::string& file, const std::string& port) try
   }
   throw analysis::Failure(analysis::Exit::usage,
                           fmt::format("{}: no port \"{}\"; its ports: {}", file, port, names));
-} catch (const record::BadRecording& error) {
-  throw analysis::Failure(analysis::Exit::bad_input, error.what());
 }
 
 protocols::Protocol PortBytes::protocol() const { return recording_->settings().ports[port_].protocol; }
 
 protocols::Bytes PortBytes::next() {
-  try {
-    while (auto entry = recording_->next()) {
-      auto* const read = std::get_if<record::RawRead>(&*entry);
-      if (read == nullptr || read->port != port_ || read->direction != record::Direction::received) continue;
-      bytes_ = std::move(read->bytes);
-      arrival_ns_ = read->time_ns;
-      if (!bytes_.empty()) return bytes_;
-    }
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  while (auto entry = recording_->next()) {
+    auto* const read = std::get_if<record::RawRead>(&*entry);
+    if (read == nullptr || read->port != port_ || read->direction != record::Direction::received) continue;
+    bytes_ = std::move(read->bytes);
+    arrival_ns_ = read->time_ns;
+    if (!bytes_.empty()) return bytes_;
   }
   return {};
 }

@@ -22,14 +22,10 @@ bool is_recording(const std::string& file) {
 /// The name of the only port of a recording.
 std::string only_port(const std::string& file) {
   std::string names;
-  try {
-    const auto recording = record::Recording::open(file);
-    const auto& ports = recording->settings().ports;
-    if (ports.size() == 1) return ports.front().name;
-    for (const auto& port : ports) names += (names.empty() ? "" : ", ") + port.name;
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  }
+  const auto recording = record::Recording::open(file);
+  const auto& ports = recording->settings().ports;
+  if (ports.size() == 1) return ports.front().name;
+  for (const auto& port : ports) names += (names.empty() ? "" : ", ") + port.name;
   throw analysis::Failure(analysis::Exit::usage, file + ": --port NAME says which of its ports: " + names);
 }
 

@@ -31,11 +31,7 @@ struct NewArguments {
 };
 
 protocols::described::Description read_device_file(const std::string& file) {
-  try {
-    return config::load_description(file);
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  }
+  return config::load_description(file);
 }
 
 void check(const CheckArguments& arguments) {

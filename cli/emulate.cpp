@@ -212,19 +212,9 @@ void add_emulate(CLI::App& app) {
     expect_no_overwriting(
         {arguments->path, arguments->mission, arguments->vehicle, arguments->effects_file, arguments->config},
         {arguments->truth, arguments->sent_log});
-    try {
-      if (!arguments->config.empty())
-        arguments->instruments = devices::instrument_model(config::load(arguments->config));
-      run(*arguments);
-    } catch (const sim::BadPath& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    } catch (const config::Error& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    } catch (const sim::UnstableVehicle& error) {
-      throw analysis::Failure(analysis::Exit::failed, error.what());
-    } catch (const sim::UnfitLayout& error) {
-      throw analysis::Failure(analysis::Exit::failed, error.what());
-    }
+    if (!arguments->config.empty())
+      arguments->instruments = devices::instrument_model(config::load(arguments->config));
+    run(*arguments);
   });
 }
 

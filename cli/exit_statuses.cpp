@@ -2,24 +2,33 @@
 #include "cli/exit_statuses.h"
 
 #include <stdexcept>
-#include <system_error>
 
 #include "config/error.h"
 #include "record/recording.h"
+#include "runs/run.h"
+#include "sim/path.h"
 
 namespace navcal::cli {
+namespace {
+
+template <class... Errors>
+bool is_one_of(const std::exception& error) {
+  return (... || (dynamic_cast<const Errors*>(&error) != nullptr));
+}
+
+}  // namespace
+
+analysis::Exit exit_status_of(const std::exception& error) {
+  if (const auto* const failure = dynamic_cast<const analysis::Failure*>(&error)) return failure->status();
+  const bool is_bad_input = is_one_of<record::BadRecording, config::Error, runs::BadRun, sim::BadPath>(error);
+  return is_bad_input ? analysis::Exit::bad_input : analysis::Exit::failed;
+}
 
 void with_exit_statuses(const std::function<void()>& work, analysis::Exit of_arguments) {
   try {
     work();
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const std::invalid_argument& error) {
     throw analysis::Failure(of_arguments, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
   }
 }
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <functional>
 
 #include "analysis/failure.h"
 
 namespace navcal::cli {
 
-/// Does some work. A bad recording or settings, a wrong argument, and what the system refuses become an
-/// analysis::Failure with the exit status of docs/cli.md; other exceptions pass. `of_arguments`: the status of
-/// std::invalid_argument; bad_input where it tells of what the files hold.
+/// Exit status (docs/cli.md) of a command that ended by this exception: bad_input for a bad recording, path or
+/// settings; that of an analysis::Failure; failed for all else.
+[[nodiscard]] analysis::Exit exit_status_of(const std::exception& error);
+
+/// Does some work. std::invalid_argument becomes an analysis::Failure with the status `of_arguments`: bad_input
+/// where it tells of what the files hold. Other exceptions pass.
 void with_exit_statuses(const std::function<void()>& work, analysis::Exit of_arguments = analysis::Exit::usage);
 
 }  // namespace navcal::cli

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "analysis/failure.h"
@@ -159,11 +158,7 @@ void add_fleet_submit(CLI::App& fleet) {
       "         navcal fleet submit plan/ --slurm --sbatch=--time=30 --sbatch=--mem=2G");
   command->callback([options] {
     if (!options->local && !options->slurm) throw CLI::RequiredError("one of --local and --slurm");
-    try {
-      submit(*options);
-    } catch (const std::system_error& error) {
-      throw analysis::Failure(analysis::Exit::failed, error.what());
-    }
+    submit(*options);
   });
 }
 

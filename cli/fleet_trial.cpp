@@ -7,7 +7,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include "analysis/failure.h"
 #include "analysis/progress.h"
@@ -35,8 +34,6 @@ void record_fleet(const FleetTrialArguments& arguments) {
     write_result(arguments.truth, validation::truth_text(fleet));
   } catch (const std::invalid_argument& error) {
     throw analysis::Failure(analysis::Exit::usage, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
   }
   fmt::print("{} missions of {} vehicles in {}, truth in {}\n",
              arguments.options.vehicles * arguments.options.days, arguments.options.vehicles, arguments.folder,

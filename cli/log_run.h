@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "analysis/failure.h"
@@ -23,19 +22,11 @@ template <class Job>
 auto run_log_job(Job job) {
   const base::Interruptible interruptible;
   analysis::Progress progress("log");
-  try {
-    return job(record::Progress([&progress](double done) {
-      if (base::Interruptible::interrupted())
-        throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
-      progress.show(done);
-    }));
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+  return job(record::Progress([&progress](double done) {
+    if (base::Interruptible::interrupted())
+      throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
+    progress.show(done);
+  }));
 }
 
 inline void tell_remarks(const std::vector<std::string>& remarks) {

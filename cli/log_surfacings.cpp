@@ -25,17 +25,11 @@ struct SurfacingsOptions {
 };
 
 analysis::SurfacingRun run_surfacings(const SurfacingsOptions& options) {
-  try {
-    const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
-                                                 : config::load(options.config);
-    analysis::SurfacingRun run(settings);
-    for (const auto& file : options.files) run.play(file);
-    return run;
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  }
+  const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
+                                               : config::load(options.config);
+  analysis::SurfacingRun run(settings);
+  for (const auto& file : options.files) run.play(file);
+  return run;
 }
 
 void show_surfacings(const SurfacingsOptions& options) {
@@ -47,11 +41,7 @@ void show_surfacings(const SurfacingsOptions& options) {
   for (const auto& remark : run.remarks())
     std::fprintf(stderr, "navcal log: %s\n", base::printable(remark).c_str());
   if (!options.page.empty()) {
-    try {
-      write_result(options.page, report::surfacings_page(run.surfacings(), options.files, run.settings()));
-    } catch (const std::system_error& error) {
-      throw analysis::Failure(analysis::Exit::failed, error.what());
-    }
+    write_result(options.page, report::surfacings_page(run.surfacings(), options.files, run.settings()));
   }
   const std::string text = options.json ? report::surfacings_json(run.surfacings(), options.files)
                                         : report::surfacings_text(run.surfacings());

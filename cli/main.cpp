@@ -4,6 +4,7 @@
 
 #include "base/printable.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/misspelling.h"
 #include "share/manual.h"
 
@@ -51,12 +52,9 @@ int main(int argc, char** argv) {
     }
     // CLI11 has statuses of its own; the contract has one for wrong usage.
     return app.exit(error) == 0 ? static_cast<int>(Exit::success) : static_cast<int>(Exit::usage);
-  } catch (const navcal::analysis::Failure& failure) {
-    std::fprintf(stderr, "navcal: %s\n", navcal::base::printable(failure.what(), "\n").c_str());
-    return static_cast<int>(failure.status());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "navcal: %s\n", navcal::base::printable(error.what(), "\n").c_str());
-    return static_cast<int>(Exit::failed);
+    return static_cast<int>(navcal::cli::exit_status_of(error));
   }
   return static_cast<int>(Exit::success);
 }

@@ -54,24 +54,15 @@ void write_configuration(const NoiseCommandOptions& options, const analysis::Noi
 
 void find_noise(const NoiseCommandOptions& options) {
   expect_outputs(options);
-  try {
-    const auto settings = options.config.empty() ? record::Recording::open(options.request.file)->settings()
-                                                 : config::load(options.config);
-    const analysis::NoiseReport report = analysis::noise_of(options.request, settings);
-    for (const auto& remark : report.remarks)
-      std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
-    analysis::Output output(STDOUT_FILENO, "standard output");
-    output.append(base::printable(options.json ? report::noise_json(report) : report::noise_text(report), "\n"));
-    output.flush();
-    if (!options.page.empty()) write_result(options.page, report::noise_page(report));
-    if (!options.write.empty()) write_configuration(options, report, settings);
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+  const auto settings = options.config.empty() ? record::Recording::open(options.request.file)->settings()
+                                               : config::load(options.config);
+  const analysis::NoiseReport report = analysis::noise_of(options.request, settings);
+  for (const auto& remark : report.remarks) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(base::printable(options.json ? report::noise_json(report) : report::noise_text(report), "\n"));
+  output.flush();
+  if (!options.page.empty()) write_result(options.page, report::noise_page(report));
+  if (!options.write.empty()) write_configuration(options, report, settings);
 }
 
 }  // namespace

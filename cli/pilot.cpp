@@ -199,13 +199,7 @@ void add_pilot(CLI::App& app) {
       "s and are neutral after that.\n"
       "docs/pilot.md shows how to try it without water.\n\n"
       "Example: navcal pilot survey --control /run/navcal/control --max-depth 5");
-  command->callback([options] {
-    try {
-      run_pilot(*options);
-    } catch (const config::Error& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    }
-  });
+  command->callback([options] { run_pilot(*options); });
 }
 
 }  // namespace navcal::cli

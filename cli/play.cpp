@@ -34,13 +34,7 @@ void run(const analysis::PlayArguments& arguments) {
     io.stop();
   });
   io.run();
-  if (failure) {
-    try {
-      std::rethrow_exception(failure);
-    } catch (const record::BadRecording& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    }
-  }
+  if (failure) std::rethrow_exception(failure);
   if (interrupted) fmt::print(stderr, "navcal play: interrupted\n");
   session.report();
 }
@@ -66,13 +60,7 @@ void add_play(CLI::App& app) {
       "to\n"
       "the devices are not played. Each read is one piece, as it was recorded.\n\n"
       "Example: navcal play dive.cap --dir /tmp/ports & navcald --config navcald.toml");
-  command->callback([arguments] {
-    try {
-      run(*arguments);
-    } catch (const record::BadRecording& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    }
-  });
+  command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace navcal::cli

@@ -87,28 +87,22 @@ void tell(const analysis::ReplayRun& run, std::size_t& told) {
 }
 
 void replay(const ReplayCommandOptions& options) {
-  try {
-    auto recording = record::Recording::open(options.files.front());
-    const auto settings = options.config.empty() ? recording->settings() : config::load(options.config);
-    analysis::Output output(STDOUT_FILENO, "standard output");
-    Printer printer(settings, output);
-    analysis::ReplayRun run(settings);
-    std::size_t told = 0;
-    for (const std::string& file : options.files) {
-      run.open(recording ? std::move(recording) : record::Recording::open(file), file);
-      tell(run, told);
-      {
-        analysis::Progress progress("replay");
-        while (run.step(printer)) progress.show(run.progress());
-      }
-      tell(run, told);
+  auto recording = record::Recording::open(options.files.front());
+  const auto settings = options.config.empty() ? recording->settings() : config::load(options.config);
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  Printer printer(settings, output);
+  analysis::ReplayRun run(settings);
+  std::size_t told = 0;
+  for (const std::string& file : options.files) {
+    run.open(recording ? std::move(recording) : record::Recording::open(file), file);
+    tell(run, told);
+    {
+      analysis::Progress progress("replay");
+      while (run.step(printer)) progress.show(run.progress());
     }
-    output.flush();
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+    tell(run, told);
   }
+  output.flush();
 }
 
 }  // namespace

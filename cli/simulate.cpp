@@ -52,11 +52,7 @@ void run(const analysis::SimulateArguments& arguments) {
 }
 
 devices::InstrumentModel configured_instruments(const std::filesystem::path& file) {
-  try {
-    return devices::instrument_model(config::load(file));
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  }
+  return devices::instrument_model(config::load(file));
 }
 
 void simulate(SimulateCommandOptions& options) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include "analysis/output.h"
 #include "analysis/progress.h"
@@ -50,12 +49,8 @@ void recompute_thesis(ThesisCommandOptions options) {
     return analysis::thesis_results(options.request,
                                     [&](std::string_view what, double done) { progress.show(what, done); });
   }();
-  try {
-    if (!options.page.empty()) write_result(options.page, report::thesis_page(results));
-    if (!options.json.empty()) write_thesis_json(options.json, report::thesis_json(results));
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+  if (!options.page.empty()) write_result(options.page, report::thesis_page(results));
+  if (!options.json.empty()) write_thesis_json(options.json, report::thesis_json(results));
 }
 
 }  // namespace

@@ -155,12 +155,8 @@ void answer_runs(const ValidateRunsArguments& arguments) {
 void validate_runs(const ValidateRunsArguments& arguments) {
   try {
     answer_runs(arguments);
-  } catch (const runs::BadRun& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const runs::BadNominal& error) {
     throw analysis::Failure(analysis::Exit::bad_input, arguments.nominal + ": " + error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
   }
 }
 

@@ -130,13 +130,7 @@ void add_view(CLI::App& app) {
       "open,\n"
       "until Ctrl-C. What is not a log becomes one in a temporary folder first.\n\n"
       "Example: navcal view dive.mcap --speed 10");
-  command->callback([arguments] {
-    try {
-      view(*arguments);
-    } catch (const record::BadRecording& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    }
-  });
+  command->callback([arguments] { view(*arguments); });
 }
 
 }  // namespace navcal::cli

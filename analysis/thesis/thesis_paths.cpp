@@ -73,11 +73,7 @@ std::array<ThesisPath, kThesisPaths> load_thesis_paths(const fs::path& folder) {
   for (int number = 1; number <= kThesisPaths; ++number) {
     const fs::path file = path_file(folder, number);
     ThesisPath& path = paths.at(static_cast<std::size_t>(number - 1));
-    try {
-      path = load_thesis_path(file);
-    } catch (const sim::BadPath& error) {
-      throw Failure(Exit::bad_input, error.what());
-    }
+    path = load_thesis_path(file);
     expect_period(path, file);
   }
   return paths;

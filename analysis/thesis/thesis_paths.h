@@ -20,7 +20,8 @@ using ThesisPath = std::vector<calib::thesis::TruePoint>;
 /// the folders, where neither has them.
 [[nodiscard]] std::filesystem::path thesis_folder();
 
-/// Reads path1.csv to path8.csv, 10 Hz. Throws Failure where one is missing, is no path, or has not 10 Hz.
+/// Reads path1.csv to path8.csv, 10 Hz. Throws sim::BadPath where one is missing or is no path, Failure where
+/// one has not 10 Hz.
 [[nodiscard]] std::array<ThesisPath, kThesisPaths> load_thesis_paths(const std::filesystem::path& folder);
 
 }  // namespace navcal::analysis

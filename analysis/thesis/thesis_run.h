@@ -20,7 +20,7 @@ struct ThesisRequest {
 using ThesisProgress = std::function<void(std::string_view what, double done)>;
 
 /// Computes everything that the tables and figures of the thesis show. The same request gives the same results.
-/// Throws Failure where the paths cannot be read.
+/// Throws as load_thesis_paths().
 [[nodiscard]] ThesisResults thesis_results(const ThesisRequest& request, const ThesisProgress& progress);
 
 }  // namespace navcal::analysis

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 
 namespace navcal::cli::test {
 
@@ -27,8 +28,8 @@ inline Outcome run_command(void (*add)(CLI::App&), std::vector<std::string> argu
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     outcome = {static_cast<int>(analysis::Exit::usage), error.what(), ""};
-  } catch (const analysis::Failure& failure) {
-    outcome = {static_cast<int>(failure.status()), failure.what(), ""};
+  } catch (const std::exception& error) {
+    outcome = {static_cast<int>(exit_status_of(error)), error.what(), ""};
   }
   outcome.output = ::testing::internal::GetCapturedStdout();
   return outcome;

@@ -13,6 +13,7 @@
 #include "analysis/failure.h"
 #include "analysis/thesis/thesis_parts.h"
 #include "base/angles.h"
+#include "sim/path.h"
 #include "tests/support/temporary_folder.h"
 
 namespace navcal::analysis {
@@ -114,6 +115,8 @@ std::string failure_of(const std::filesystem::path& folder) {
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.status(), Exit::bad_input);
     return failure.what();
+  } catch (const sim::BadPath& bad) {
+    return bad.what();
   }
   return "none";
 }
