@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -22,11 +21,6 @@ namespace navcal::validation {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string active_content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// One case on its way, in a folder of its own.
 class ActiveCase {
@@ -82,10 +76,9 @@ class ActiveCase {
     arguments.insert(arguments.end(), {"--json", json});
     const ChildEnd end = run_child(options_.program, arguments, errors, options_.timeout);
     if (end.how != ChildEnd::How::exited || end.status != 0) {
-      throw std::runtime_error("it ended with status " + std::to_string(end.status) + ": " +
-                               active_content(errors));
+      throw std::runtime_error("it ended with status " + std::to_string(end.status) + ": " + content_of(errors));
     }
-    return active_content(json);
+    return content_of(json);
   }
 
   TrialAnswer answer(const std::vector<fs::path>& recordings) {

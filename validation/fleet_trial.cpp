@@ -14,7 +14,6 @@
 
 #include "base/parallel.h"
 #include "base/utc_text.h"
-#include "record/whole_file.h"
 #include "validation/missions.h"
 #include "validation/recordings.h"
 
@@ -141,9 +140,8 @@ void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, un
     throw std::invalid_argument(folder.string() + ": the folder is not empty");
   }
   std::filesystem::create_directories(folder);
-  record::WholeFile nominal(folder / "vehicle.toml");
-  nominal.write(fmt::format("[water]\ndensity_kg_m3 = {}\n", fleet.place.waters.density_kg_m3));
-  nominal.commit();
+  write_file(folder / "vehicle.toml",
+             fmt::format("[water]\ndensity_kg_m3 = {}\n", fleet.place.waters.density_kg_m3));
   struct Mission {
     int vehicle = 0, day = 0;
     std::uint64_t seed = 0;

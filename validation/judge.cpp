@@ -89,13 +89,8 @@ void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
 
 void judge_parameters(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgement& judgement) {
   for (const TrialFinding& finding : answer.effects) {
-    for (const auto& [key, value] : true_parameters({finding.name, {}}, drawn.vehicle).parameters) {
-      ++judgement.parameters;
-      const auto estimate = finding.parameters.find(key);
-      if (estimate == finding.parameters.end() || !estimate->second.std_error) continue;
-      if (std::abs(estimate->second.value - value) <= 2 * *estimate->second.std_error)
-        ++judgement.parameters_within;
-    }
+    count_within(finding, true_parameters({finding.name, {}}, drawn.vehicle).parameters,
+                 judgement.parameters_within, judgement.parameters);
   }
 }
 
@@ -115,6 +110,16 @@ std::string_view name_of(TrialOutcome outcome) {
   constexpr std::array<std::string_view, kTrialOutcomes> kNames{"exact",   "part",   "class", "wrong name",
                                                                 "unknown", "no gap", "failed"};
   return kNames[static_cast<std::size_t>(outcome)];
+}
+
+void count_within(const TrialFinding& finding, const std::map<std::string, double, std::less<>>& truth,
+                  int& within, int& all) {
+  for (const auto& [key, value] : truth) {
+    ++all;
+    const auto estimate = finding.parameters.find(key);
+    if (estimate == finding.parameters.end() || !estimate->second.std_error) continue;
+    if (std::abs(estimate->second.value - value) <= 2 * *estimate->second.std_error) ++within;
+  }
 }
 
 TrialJudgement judged(const TrialResult& result) {

@@ -62,6 +62,10 @@ struct TrialJudgement {
 /// do not show they may be large and leave nothing.)
 inline constexpr double kTrueClosure = 1;
 
+/// Adds the true parameters of a finding: those whose estimate lies within two standard errors, and all.
+void count_within(const TrialFinding& finding, const std::map<std::string, double, std::less<>>& truth,
+                  int& within, int& all);
+
 [[nodiscard]] TrialJudgement judged(const TrialResult& result);
 
 }  // namespace navcal::validation

@@ -7,11 +7,8 @@
 #include <stdexcept>
 
 #include "analysis/failure.h"
-#include "base/interruptible.h"
-#include "config/load.h"
-#include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
-#include "validation/reference/sink.h"
+#include "validation/recordings.h"
 
 namespace navcal::validation {
 namespace {
@@ -20,47 +17,6 @@ namespace thrusters = reference::thrusters;
 
 constexpr int kMostAttempts = 20;
 constexpr std::uint64_t kMissionStream = 7ULL << 40U;
-
-std::vector<config::PortSettings> thruster_ports() {
-  std::vector<config::PortSettings> ports;
-  for (const reference::Port port : reference::kThrusterPorts) {
-    const reference::PortFacts& facts = reference::facts_of(port);
-    ports.push_back(config::default_port(std::string(facts.name),
-                                         protocols::protocol_named(facts.protocol).value(), facts.baud));
-  }
-  return ports;
-}
-
-std::uint16_t place_of(reference::Port port) {
-  std::uint16_t place = 0;
-  for (const reference::Port one : reference::kThrusterPorts) {
-    if (one == port) break;
-    ++place;
-  }
-  return place;
-}
-
-class CaptureText final : public reference::Sink {
- public:
-  CaptureText() : writer_(thruster_ports()) { writer_.begin(text); }
-  void transfer(const reference::Transfer& transfer) override {
-    const auto direction = transfer.sent ? record::Direction::sent : record::Direction::received;
-    writer_.bytes(text, place_of(transfer.port), direction, transfer.time_ns, transfer.bytes);
-  }
-  void truth(const reference::Snapshot& /*snapshot*/) override {
-    if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
-  }
-  std::string text;
-
- private:
-  record::CaptureWriter writer_;
-};
-
-void write_file(const std::filesystem::path& path, std::string_view text) {
-  record::WholeFile file(path);
-  file.write(text);
-  file.commit();
-}
 
 /// Seeds of missions by what they belong to: vehicle and day of nominal ones, case and letter of others.
 std::uint64_t mission_seed(std::uint64_t seed, std::uint64_t series, int number, int part) {
@@ -149,7 +105,7 @@ class FolderWriter {
 }  // namespace
 
 std::string capture_of(const thrusters::Swim& swim, const thrusters::CraftUnderTest& craft, std::uint64_t seed) {
-  CaptureText capture;
+  CaptureText capture(reference::kThrusterPorts);
   if (thrusters::run(swim, craft, seed, capture)) return {};
   return std::move(capture.text);
 }

@@ -101,46 +101,20 @@ std::array<int, 2> parameters_within(const JudgedLayout& one) {
   std::array<int, 2> counts{};
   if (one.outcome != LayoutOutcome::exact) return counts;
   for (const TrialFinding& finding : one.answer->answer->effects) {
-    for (const LayoutTruth::Present& present : one.truth->effects) {
-      if (!is_same(present, finding.name)) continue;
-      for (const auto& [key, value] : present.parameters) {
-        ++counts[1];
-        const auto estimate = finding.parameters.find(key);
-        if (estimate == finding.parameters.end() || !estimate->second.std_error) continue;
-        if (std::abs(estimate->second.value - value) <= 2 * *estimate->second.std_error) ++counts[0];
-      }
-    }
+    for (const LayoutTruth::Present& present : one.truth->effects)
+      if (is_same(present, finding.name)) count_within(finding, present.parameters, counts[0], counts[1]);
   }
   return counts;
 }
 
-class LayoutTable {
+class LayoutTable : public ScoreTable<JudgedLayout> {
  public:
-  LayoutTable(const std::vector<JudgedLayout>& all, std::vector<TrialScore>& scores)
-      : all_(all), scores_(scores) {}
-
+  using ScoreTable::ScoreTable, ScoreTable::share;
   using Hit = std::function<bool(const JudgedLayout&)>;
-  void share(LayoutArm arm, std::string_view what, std::optional<double> least, std::optional<double> most,
-             const Hit& hit) {
-    TrialScore score{fmt::format("{}: {}", name_of(arm), what), "%", {}, 0, 0, {}, least, most};
-    for (const JudgedLayout& one : all_) {
-      if (one.truth->arm != arm) continue;
-      ++score.cases;
-      score.hits += hit(one) ? 1 : 0;
-    }
-    finish(std::move(score));
+  void share(LayoutArm arm, std::string_view what, TrialTarget target, const Hit& hit) {
+    share(fmt::format("{}: {}", name_of(arm), what), target,
+          [&](const JudgedLayout& one) { return one.truth->arm == arm ? std::optional(hit(one)) : std::nullopt; });
   }
-  void finish(TrialScore score) {
-    if (score.cases > 0) {
-      score.value = static_cast<double>(score.hits) / score.cases;
-      score.interval = wilson(score.hits, score.cases);
-    }
-    scores_.push_back(std::move(score));
-  }
-
- private:
-  const std::vector<JudgedLayout>& all_;
-  std::vector<TrialScore>& scores_;
 };
 
 LayoutTable::Hit is(LayoutOutcome outcome) {
@@ -150,42 +124,25 @@ LayoutTable::Hit is(LayoutOutcome outcome) {
 void score_all(const std::vector<JudgedLayout>& all, std::vector<TrialScore>& scores) {
   using enum LayoutOutcome;
   LayoutTable table(all, scores);
-  table.share(LayoutArm::nulls, "flagged", {}, 0.02, [](const JudgedLayout& one) {
+  table.share(LayoutArm::nulls, "flagged", {{}, 0.02}, [](const JudgedLayout& one) {
     return one.outcome != failed && one.outcome != no_gap && one.outcome != cannot_say;
   });
-  table.share(LayoutArm::nulls, "an effect named", {}, {}, is(wrong));
+  table.share(LayoutArm::nulls, "an effect named", {}, is(wrong));
   for (const LayoutArm arm : {LayoutArm::single, LayoutArm::single_double, LayoutArm::single_half}) {
-    table.share(arm, "exact", 0.95, {}, is(exact));
-    table.share(arm, "exact, or its class", {}, {},
+    table.share(arm, "exact", {0.95, {}}, is(exact));
+    table.share(arm, "exact, or its class", {},
                 [](const JudgedLayout& one) { return one.outcome == exact || one.outcome == in_class; });
-    table.share(arm, "wrong name", {}, 0.01, is(wrong));
+    table.share(arm, "wrong name", {{}, 0.01}, is(wrong));
   }
-  table.share(LayoutArm::pairs, "exact", 0.9, {}, is(exact));
-  table.share(LayoutArm::removed, "unknown, cannot say, or its class", 0.85, {}, is_as_asked);
-  table.share(LayoutArm::foreign, "unknown, or cannot say", 0.97, {}, is_as_asked);
-  TrialScore within{"parameters within 2 standard errors", "%", {}, 0, 0, {}, 0.95, {}};
-  TrialScore missing{"no answer", "%", {}, 0, 0, {}, {}, 0.0};
+  table.share(LayoutArm::pairs, "exact", {0.9, {}}, is(exact));
+  table.share(LayoutArm::removed, "unknown, cannot say, or its class", {0.85, {}}, is_as_asked);
+  table.share(LayoutArm::foreign, "unknown, or cannot say", {0.97, {}}, is_as_asked);
+  table.parts("parameters within 2 standard errors", {0.95, {}}, parameters_within);
   std::vector<double> closures;
-  for (const JudgedLayout& one : all) {
-    const auto [hits, cases] = parameters_within(one);
-    within.hits += hits;
-    within.cases += cases;
-    ++missing.cases;
-    missing.hits += one.outcome == failed ? 1 : 0;
+  for (const JudgedLayout& one : all)
     if (one.outcome == exact && one.answer->answer->closed) closures.push_back(*one.answer->answer->closed);
-  }
-  table.finish(within);
-  scores.push_back(
-      {"closure: median", "%", quantile(closures, 0.5), 0, static_cast<int>(closures.size()), {}, 0.98, {}});
-  scores.push_back({"closure: 10th percentile",
-                    "%",
-                    quantile(closures, 0.1),
-                    0,
-                    static_cast<int>(closures.size()),
-                    {},
-                    0.95,
-                    {}});
-  table.finish(missing);
+  table.closures(closures);
+  table.LayoutTable::ScoreTable::share("no answer", {{}, 0.0}, is(failed));
 }
 
 }  // namespace

@@ -3,71 +3,66 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
 #include <future>
-#include <string>
+#include <iterator>
 
 #include "analysis/failure.h"
 #include "base/interruptible.h"
 #include "config/load.h"
-#include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
 #include "validation/missions.h"
-#include "validation/reference/sink.h"
 
 namespace navcal::validation {
 namespace {
 
-std::vector<config::PortSettings> trial_ports() {
-  std::vector<config::PortSettings> ports;
-  ports.reserve(reference::kFinnedPorts.size());
-  for (const reference::Port port : reference::kFinnedPorts) {
+std::vector<config::PortSettings> settings_of(std::span<const reference::Port> ports) {
+  std::vector<config::PortSettings> settings;
+  for (const reference::Port port : ports) {
     const reference::PortFacts& facts = reference::facts_of(port);
-    ports.push_back(config::default_port(std::string(facts.name),
-                                         protocols::protocol_named(facts.protocol).value(), facts.baud));
+    settings.push_back(config::default_port(std::string(facts.name),
+                                            protocols::protocol_named(facts.protocol).value(), facts.baud));
   }
-  return ports;
+  return settings;
 }
-
-class Recording final : public reference::Sink {
- public:
-  explicit Recording(const std::filesystem::path& file) : file_(file), writer_(trial_ports()) {
-    writer_.begin(text_);
-  }
-  void transfer(const reference::Transfer& transfer) override {
-    constexpr std::size_t kEnough = std::size_t{1} << 20;
-    const auto direction = transfer.sent ? record::Direction::sent : record::Direction::received;
-    writer_.bytes(text_, static_cast<std::uint16_t>(transfer.port), direction, transfer.time_ns, transfer.bytes);
-    if (text_.size() > kEnough) flush();
-  }
-  void truth(const reference::Snapshot& /*snapshot*/) override {
-    if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
-  }
-  void finish() {
-    flush();
-    file_.commit();
-  }
-
- private:
-  void flush() {
-    file_.write(text_);
-    text_.clear();
-  }
-  record::WholeFile file_;
-  record::CaptureWriter writer_;
-  std::string text_;
-};
 
 }  // namespace
 
+CaptureText::CaptureText(std::span<const reference::Port> ports) : ports_(ports), writer_(settings_of(ports)) {
+  writer_.begin(text);
+}
+
+void CaptureText::transfer(const reference::Transfer& transfer) {
+  const auto place = std::ranges::find(ports_, transfer.port) - ports_.begin();
+  const auto direction = transfer.sent ? record::Direction::sent : record::Direction::received;
+  writer_.bytes(text, static_cast<std::uint16_t>(place), direction, transfer.time_ns, transfer.bytes);
+}
+
+void CaptureText::truth(const reference::Snapshot& /*snapshot*/) {
+  if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  record::WholeFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 void write_recording(const reference::Mission& mission, const reference::VehicleUnderTest& vehicle,
                      std::uint64_t seed, const std::filesystem::path& file) {
-  Recording recording(file);
-  if (const auto lost = reference::run(mission, vehicle, seed, recording)) {
+  CaptureText capture(reference::kFinnedPorts);
+  if (const auto lost = reference::run(mission, vehicle, seed, capture)) {
     throw analysis::Failure(
         analysis::Exit::failed,
         fmt::format("no recording: the vehicle was lost {:.1f} s into the mission", lost->time_s));
   }
-  recording.finish();
+  write_file(file, capture.text);
 }
 
 std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,

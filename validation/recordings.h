@@ -4,10 +4,34 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "record/capture/capture_writer.h"
 #include "validation/cases.h"
+#include "validation/reference/sink.h"
 
 namespace navcal::validation {
+
+/// Text of a capture of what a reference simulator transfers on these ports. Throws Failure when interrupted.
+class CaptureText final : public reference::Sink {
+ public:
+  explicit CaptureText(std::span<const reference::Port> ports);
+  void transfer(const reference::Transfer& transfer) override;
+  void truth(const reference::Snapshot& snapshot) override;
+  std::string text;
+
+ private:
+  std::span<const reference::Port> ports_;
+  record::CaptureWriter writer_;
+};
+
+/// Whole or not at all. Throws std::system_error.
+void write_file(const std::filesystem::path& path, std::string_view text);
+/// Empty where the file cannot be read.
+[[nodiscard]] std::string content_of(const std::filesystem::path& file);
 
 /// Swims the three missions of a case and writes a.cap (to be diagnosed), b.cap and c.cap (held out) into the
 /// folder: nothing in or about them tells of the case. Throws Failure when the vehicle was lost or the trial is

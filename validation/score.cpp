@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <initializer_list>
 
 namespace navcal::validation {
@@ -17,58 +16,20 @@ struct Judged {
   TrialJudgement judgement;
 };
 
-struct Target {
-  std::optional<double> least{}, most{};
-};
-Target at_least(double share) { return {share, {}}; }
-Target at_most(double share) { return {{}, share}; }
+TrialTarget at_least(double share) { return {share, {}}; }
+TrialTarget at_most(double share) { return {{}, share}; }
 
-/// Which of them count, and whether one is a hit; an absent answer does not count.
-using Question = std::function<std::optional<bool>(const Judged&)>;
+using Question = ScoreTable<Judged>::Question;
 
-class Table {
+class Table : public ScoreTable<Judged> {
  public:
-  Table(const std::vector<Judged>& all, std::vector<TrialScore>& scores) : all_(all), scores_(scores) {}
-
-  void share(const std::string& name, Target target, const Question& question) {
-    TrialScore score{name, "%", {}, 0, 0, {}, target.least, target.most};
-    for (const Judged& one : all_) {
-      const auto hit = question(one);
-      if (hit) score.hits += int{*hit}, ++score.cases;
-    }
-    finish(score);
-  }
-  void share(const std::string& name, Target target, Arms arms, const Question& question) {
+  using ScoreTable::ScoreTable, ScoreTable::share;
+  void share(const std::string& name, TrialTarget target, Arms arms, const Question& question) {
     share(name, target, [&](const Judged& one) -> std::optional<bool> {
       const auto arm = one.result->drawn.arm;
       return std::find(arms.begin(), arms.end(), arm) == arms.end() ? std::nullopt : question(one);
     });
   }
-  /// Sums over cases, each of which has several.
-  void parts(const std::string& name, Target target, const std::function<std::array<int, 2>(const Judged&)>& of) {
-    TrialScore score{name, "%", {}, 0, 0, {}, target.least, target.most};
-    for (const Judged& one : all_) {
-      const auto [hits, cases] = of(one);
-      score.hits += hits;
-      score.cases += cases;
-    }
-    finish(score);
-  }
-  void value(const std::string& name, const std::string& unit, Target target, std::optional<double> value,
-             std::size_t cases) {
-    scores_.push_back({name, unit, value, 0, static_cast<int>(cases), {}, target.least, target.most});
-  }
-
- private:
-  void finish(TrialScore& score) {
-    if (score.cases > 0) {
-      score.value = static_cast<double>(score.hits) / score.cases;
-      score.interval = wilson(score.hits, score.cases);
-    }
-    scores_.push_back(std::move(score));
-  }
-  const std::vector<Judged>& all_;
-  std::vector<TrialScore>& scores_;
 };
 
 Question is(TrialOutcome outcome) {
@@ -164,9 +125,7 @@ void score_numbers(const std::vector<Judged>& all, const TrialScores& scores, Ta
   table.value("probabilities: calibration error", "", at_most(0.03),
               bets > 0 ? std::optional(calibration_error(scores.calibration)) : std::nullopt,
               static_cast<std::size_t>(bets));
-  const auto& closures = scores.closures;
-  table.value("closure: median", "%", at_least(0.98), quantile(closures, 0.5), closures.size());
-  table.value("closure: 10th percentile", "%", at_least(0.95), quantile(closures, 0.1), closures.size());
+  table.closures(scores.closures);
   table.share("closure: the interval holds the truth", {0.9, 0.98},
               [](const Judged& one) { return one.judgement.covered; });
   table.share("strongest channel right", at_least(0.95),
