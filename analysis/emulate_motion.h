@@ -6,16 +6,17 @@
 #include <memory>
 
 #include "analysis/emulate_session.h"
-#include "analysis/ordered_layout.h"
 #include "analysis/ordered_motion.h"
+#include "sim/instruments/actuator_outputs.h"
+#include "sim/instruments/motor_card.h"
 #include "sim/state.h"
 
 namespace navcal::analysis {
 
 struct EmulatedMotion {
   std::unique_ptr<sim::Motion> motion;
-  OrderedMotion* ordered = nullptr;         ///< the motion, if it obeys the motor card
-  OrderedLayout* ordered_layout = nullptr;  ///< the motion, if it obeys outputs
+  sim::MotorCard::Obey obey_card{};           ///< if it obeys the motor card
+  sim::ActuatorOutputs::Obey obey_outputs{};  ///< if it obeys outputs
 };
 
 /// How the emulated vehicle moves from start_ns (UTC) on: by the orders of motor card or outputs, by a mission,

@@ -17,11 +17,9 @@
 #include "devices/instrument_model.h"
 #include "ports/port.h"
 #include "protocols/device_types.h"
-#include "sim/instruments/actuator_outputs.h"
 #include "sim/instruments/altimeter.h"
 #include "sim/instruments/battery_gauge.h"
 #include "sim/instruments/emulators.h"
-#include "sim/instruments/motor_card.h"
 #include "sim/instruments/tcm2.h"
 #include "sim/motion_in_field.h"
 
@@ -135,8 +133,8 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   if (!place.remark.empty()) fmt::print(stderr, "navcal: {}\n", place.remark);
   effects_ = effects_of(arguments, layout_, start_ns);
   EmulatedMotion made = emulate_motion(arguments, start_ns, effects_, [this] { return now_ns(); });
-  ordered_ = made.ordered;
-  ordered_layout_ = made.ordered_layout;
+  obey_card_ = std::move(made.obey_card);
+  obey_outputs_ = std::move(made.obey_outputs);
   motion_ = std::make_unique<sim::MotionInField>(std::move(made.motion), place.field_world_uT);
   if (!arguments.truth.empty()) {
     truth_ = std::make_unique<EmulateTruth>(arguments.truth, *motion_, start_ns);
@@ -199,11 +197,8 @@ void EmulateSession::add_vehicle_devices(const EmulateArguments& arguments, cons
 void EmulateSession::add_commands(const EmulateArguments& arguments, const devices::MotorModel& model,
                                   sim::Noise& seeds) {
   if (layout_) {
-    sim::ActuatorOutputs::Obey obey;
-    if (ordered_layout_ != nullptr)
-      obey = [this](std::int64_t t_ns, const auto& pulses_us) { ordered_layout_->order(t_ns, pulses_us); };
     if (device_at(arguments, kOutputs) == nullptr)
-      add(arguments, std::string(kOutputs), std::make_unique<sim::ActuatorOutputs>(*motion_, std::move(obey)));
+      add(arguments, std::string(kOutputs), std::make_unique<sim::ActuatorOutputs>(*motion_, obey_outputs_));
     return;
   }
   sim::MotorCard::Options motor;
@@ -211,9 +206,7 @@ void EmulateSession::add_commands(const EmulateArguments& arguments, const devic
   motor.seed = next_seed(seeds);
   motor.effects = &effects_;
   motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
-  if (ordered_ != nullptr) {
-    motor.obey = [this](std::int64_t t_ns, const auto& command) { ordered_->order(t_ns, command); };
-  }
+  motor.obey = obey_card_;
   if (device_at(arguments, "motor") == nullptr)
     add(arguments, "motor", std::make_unique<sim::MotorCard>(motor, *motion_));
 }

@@ -13,14 +13,14 @@
 
 #include "analysis/emulate_port.h"
 #include "analysis/emulate_truth.h"
-#include "analysis/ordered_layout.h"
-#include "analysis/ordered_motion.h"
 #include "analysis/place_arguments.h"
 #include "analysis/simulated_place.h"
 #include "devices/instrument_model.h"
 #include "sim/effects/effect_set.h"
+#include "sim/instruments/actuator_outputs.h"
 #include "sim/instruments/clock_factor.h"
 #include "sim/instruments/imu_card.h"
+#include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
 #include "sim/noise.h"
 #include "sim/state.h"
@@ -105,8 +105,8 @@ class EmulateSession {
   sim::EffectSet effects_;
   std::unique_ptr<sim::Motion> motion_;
   std::optional<config::Layout> layout_;
-  OrderedMotion* ordered_ = nullptr;         ///< within motion_
-  OrderedLayout* ordered_layout_ = nullptr;  ///< within motion_
+  sim::MotorCard::Obey obey_card_;           ///< by motion_
+  sim::ActuatorOutputs::Obey obey_outputs_;  ///< by motion_
   std::unique_ptr<EmulateTruth> truth_;
   boost::asio::steady_timer truth_timer_;
   std::unique_ptr<SentLog> log_;

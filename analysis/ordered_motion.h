@@ -1,54 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
 
-#include "config/vehicle.h"
-#include "protocols/motor_card.h"
 #include "sim/state.h"
-#include "sim/vehicle/ordered_helm.h"
-#include "sim/vehicle/simulated_motion.h"
 
 namespace navcal::analysis {
 
-/// A simulated vehicle that obeys the emulated motor card in real time. It is never taken further ahead than the
-/// time that it is: what it does next depends on orders that have not come. It floats: the part of the hull that
-/// is above the water has no buoyancy (docs/simulator.md).
+/// A simulated vehicle that obeys orders in real time. It is never taken further ahead than the time that it is:
+/// what it does next depends on orders that have not come.
 class OrderedMotion final : public sim::Motion {
  public:
-  struct Options {
-    std::int64_t start_ns = 0;                     ///< UTC
-    double history_s = 600;                        ///< how far back states are kept
-    sim::VehicleInfluencer* influencer = nullptr;  ///< must outlive the motion
-    std::function<std::int64_t()> now_ns;          ///< UTC
-  };
-  OrderedMotion(const config::VehicleSettings& vehicle, const Options& options);
+  /// `now_ns` gives UTC.
+  OrderedMotion(std::unique_ptr<sim::Motion> motion, std::function<std::int64_t()> now_ns)
+      : motion_(std::move(motion)), now_ns_(std::move(now_ns)) {}
 
   /// The state at t_ns; for a time to come, the state now. Throws UnstableVehicle.
-  [[nodiscard]] sim::State at(std::int64_t t_ns) const override;
-  /// What the card was told at t_ns. It takes effect at once.
-  void order(std::int64_t t_ns, const protocols::motor_card::Command& command);
+  [[nodiscard]] sim::State at(std::int64_t t_ns) const override { return motion_->at(std::min(t_ns, now_ns_())); }
+  void take_outputs(std::int64_t t_ns, std::vector<sim::OutputOrder>& out) const override {
+    motion_->take_outputs(std::min(t_ns, now_ns_()), out);
+  }
 
  private:
-  /// Adds the weight of what is above the water to what others do to the vehicle.
-  class Floating final : public sim::VehicleInfluencer {
-   public:
-    Floating(const config::VehicleSettings& vehicle, const sim::OrderedHelm& helm, sim::VehicleInfluencer* others);
-    void influence(double time_s, sim::Influences& on) override;
-    void link_fins(double time_s, double step_s, sim::Vector3& fins_rad) override;
-
-   private:
-    double weight_N_, diameter_m_;
-    const sim::OrderedHelm& helm_;
-    sim::VehicleInfluencer* others_;
-  };
-
+  std::unique_ptr<sim::Motion> motion_;
   std::function<std::int64_t()> now_ns_;
-  std::int64_t start_ns_;
-  sim::OrderedHelm* helm_;  ///< owned by motion_
-  Floating floating_;
-  sim::SimulatedMotion motion_;
 };
 
 }  // namespace navcal::analysis

@@ -19,6 +19,7 @@ namespace navcal::sim {
 /// obeys, the card always tells what that vehicle does.
 class MotorCard final : public CommandedDevice<protocols::motor_card::Parser> {
  public:
+  using Obey = std::function<void(std::int64_t t_ns, const protocols::motor_card::Command&)>;
   struct Options {
     devices::MotorModel motor;
     double clock_ppm = 0;
@@ -29,7 +30,7 @@ class MotorCard final : public CommandedDevice<protocols::motor_card::Parser> {
     EffectSet* effects = nullptr;  ///< nullptr: nominal
     /// A vehicle that obeys: called with each command that is not refused, and with shaft off and fins neutral
     /// when power comes.
-    std::function<void(std::int64_t t_ns, const protocols::motor_card::Command&)> obey{};
+    Obey obey{};
   };
   MotorCard(const Options& options, const Motion& motion);
 

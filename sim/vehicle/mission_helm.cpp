@@ -5,25 +5,21 @@
 #include <utility>
 
 namespace navcal::sim {
-namespace {
 
-autopilot::VehicleState state_of(const Body& body) {
-  return {body.position_m.z(), body.euler_rad, body.velocity.tail<3>(), body.velocity[0]};
-}
-
-}  // namespace
-
-MissionHelm::MissionHelm(const config::VehicleSettings& vehicle, config::Mission mission)
-    : vehicle_(vehicle), orders_(vehicle, std::move(mission)), actuators_(actuators_at_start()) {}
-
-Body MissionHelm::start() const {
-  const config::MissionStart& start = orders_.mission().start;
+Body body_at(const config::MissionStart& start) {
   Body body;
   body.position_m.z() = start.depth_m;
   body.euler_rad.z() = start.heading_rad;
   body.velocity[0] = start.speed_m_s;
   return body;
 }
+
+autopilot::VehicleState vehicle_state(const Body& body) {
+  return {body.position_m.z(), body.euler_rad, body.velocity.tail<3>(), body.velocity[0]};
+}
+
+MissionHelm::MissionHelm(const config::VehicleSettings& vehicle, config::Mission mission)
+    : vehicle_(vehicle), orders_(vehicle, std::move(mission)), actuators_(actuators_at_start()) {}
 
 Actuators MissionHelm::actuators_at_start() const {
   const double shaft_rps = orders_.mission().start.shaft_rps;
@@ -36,7 +32,7 @@ Actuators MissionHelm::next(double /*time_s*/, double step_s, const Body& body) 
   // Half a step: the sum of steps is no round number.
   if (until_orders_s_ < 0.5 * step_s) {
     const autopilot::Orders before = orders_.last();
-    const autopilot::Orders& now = orders_.next(state_of(body), vehicle_.autopilot.period_s);
+    const autopilot::Orders& now = orders_.next(vehicle_state(body), vehicle_.autopilot.period_s);
     if (now.fins_rad != before.fins_rad || now.shaft_rps != before.shaft_rps) {
       actuators_.fins_ordered_rad = now.fins_rad;
     }

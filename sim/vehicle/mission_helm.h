@@ -4,11 +4,17 @@
 #include <cstddef>
 
 #include "autopilot/mission_orders.h"
+#include "autopilot/vehicle_state.h"
 #include "config/mission.h"
 #include "config/vehicle.h"
 #include "sim/vehicle/helm.h"
 
 namespace navcal::sim {
+
+/// Where a mission begins.
+[[nodiscard]] Body body_at(const config::MissionStart& start);
+/// What an autopilot of the simulator steers by: the truth.
+[[nodiscard]] autopilot::VehicleState vehicle_state(const Body& body);
 
 /// Takes a vehicle through the steps of a mission by its autopilot, which steers by the true state. Servos and
 /// shaft follow their orders with first-order lags: delta' = (order - delta)/T within the servos' limits, n' =
@@ -18,7 +24,7 @@ class MissionHelm final : public Helm {
  public:
   MissionHelm(const config::VehicleSettings& vehicle, config::Mission mission);
 
-  [[nodiscard]] Body start() const override;
+  [[nodiscard]] Body start() const override { return body_at(orders_.mission().start); }
   [[nodiscard]] Actuators actuators_at_start() const override;
   [[nodiscard]] Actuators next(double time_s, double step_s, const Body& body) override;
   [[nodiscard]] bool finished() const override { return orders_.finished(); }

@@ -17,8 +17,7 @@ Body OrderedHelm::start() const {
   return body;
 }
 
-Actuators OrderedHelm::next(double time_s, double step_s, const Body& body) {
-  depth_m_ = body.position_m.z();
+Actuators OrderedHelm::next(double time_s, double step_s, const Body& /*body*/) {
   actuators_.fins_ordered_rad.reset();
   for (; !waiting_.empty() && waiting_.front().time_s <= time_s + step_s / 2; waiting_.pop_front()) {
     fins_ordered_rad_ = waiting_.front().fins_rad;

@@ -23,8 +23,6 @@ class OrderedHelm final : public Helm {
   /// Takes an order; times are in order, seconds of the run. An order applies from the step whose beginning is
   /// nearest. An order for a past time applies from the next step on.
   void order(double time_s, const Eigen::Vector3d& fins_rad, double shaft_rps);
-  /// Depth of the origin at the beginning of the newest step.
-  [[nodiscard]] double depth_m() const { return depth_m_; }
 
   [[nodiscard]] Body start() const override;
   [[nodiscard]] Actuators actuators_at_start() const override { return {}; }
@@ -42,7 +40,6 @@ class OrderedHelm final : public Helm {
   std::deque<TimedOrder> waiting_;
   Actuators actuators_;
   Eigen::Vector3d fins_ordered_rad_ = Eigen::Vector3d::Zero();
-  double depth_m_ = kSurface_m;
 };
 
 }  // namespace navcal::sim

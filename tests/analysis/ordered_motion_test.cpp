@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "analysis/emulate_motion.h"
+#include "sim/vehicle/ordered_helm.h"
+
 namespace navcal::analysis {
 namespace {
 
@@ -12,8 +15,15 @@ constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
 
 struct OrderedVehicle : ::testing::Test {
   std::int64_t now_ns = kBegin_ns;
-  OrderedMotion motion{{}, {.start_ns = kBegin_ns, .now_ns = [this] { return now_ns; }}};
+  sim::EffectSet none;
+  EmulatedMotion made = ordered(none);
+  const sim::Motion& motion = *made.motion;
 
+  EmulatedMotion ordered(sim::VehicleInfluencer& influencer) {
+    EmulateArguments arguments;
+    arguments.ordered = true;
+    return emulate_motion(arguments, kBegin_ns, influencer, [this] { return now_ns; });
+  }
   sim::State after(double seconds) {
     now_ns += static_cast<std::int64_t>(seconds * 1e9);
     return motion.at(now_ns);
@@ -30,22 +40,22 @@ TEST_F(OrderedVehicle, LiesStillWithoutOrders) {
 TEST_F(OrderedVehicle, ALookAheadDoesNotKeepItFromObeying) {
   after(1);
   (void)motion.at(now_ns + 10'000'000'000);
-  motion.order(now_ns, {780, {0, 0, 0}});
+  made.obey_card(now_ns, {780, {0, 0, 0}});
   EXPECT_GT(after(0.5).rpm, 400) << "an instrument that asks for the next seconds must not decide them";
 }
 
 TEST_F(OrderedVehicle, SwimsAtTheModelsSpeed) {
-  motion.order(now_ns, {780, {0, 0, 0}});
+  made.obey_card(now_ns, {780, {0, 0, 0}});
   EXPECT_NEAR(after(60).velocity_body_m_s[0], 1.134, 0.002);
 }
 
 TEST_F(OrderedVehicle, TurnsToStarboardByAPositiveRudder) {
-  motion.order(now_ns, {780, {-10, 5, 5}});
+  made.obey_card(now_ns, {780, {-10, 5, 5}});
   EXPECT_GT(after(5).euler_rad[2], 0.3);
 }
 
 TEST_F(OrderedVehicle, DoesNotLeaveTheWater) {
-  motion.order(now_ns, {900, {0, 13, -13}});  // nose up
+  made.obey_card(now_ns, {900, {0, 13, -13}});  // nose up
   double highest_m = 0;
   for (int i = 0; i < 600; ++i) highest_m = std::max(highest_m, -after(0.1).position_m[2]);
   EXPECT_LT(highest_m, 0.5);
@@ -56,9 +66,9 @@ TEST_F(OrderedVehicle, EffectsActOnIt) {
     void influence(double, sim::Influences& on) override { on.current_m_s = {0.1, 0}; }
     void link_fins(double, double, sim::Vector3&) override {}
   } current;
-  OrderedMotion drifting{{}, {.start_ns = kBegin_ns, .influencer = &current, .now_ns = [this] { return now_ns; }}};
+  const EmulatedMotion drifting = ordered(current);
   now_ns += 10'000'000'000;
-  EXPECT_NEAR(drifting.at(now_ns).position_m[0], 1, 0.01);
+  EXPECT_NEAR(drifting.motion->at(now_ns).position_m[0], 1, 0.01);
 }
 
 }  // namespace

@@ -10,27 +10,11 @@
 #include "sim/layout/pulses.h"
 
 namespace navcal::sim {
-namespace {
-
-autopilot::VehicleState vehicle_state(const Body& body) {
-  return {body.position_m.z(), body.euler_rad, body.velocity.tail<3>(), body.velocity[0]};
-}
-
-}  // namespace
 
 LayoutMissionHelm::LayoutMissionHelm(const config::Layout& layout, config::Mission mission)
     : vehicle_(layout), allocator_(layout), steps_(std::move(mission)),
       plan_(plan_control(vehicle_, allocator_, steps_.mission())), autopilot_(vehicle_, allocator_, plan_),
       pulses_us_(pulses_of(layout, ActuatorValues::neutral(layout))) {}
-
-Body LayoutMissionHelm::start() const {
-  const config::MissionStart& start = steps_.mission().start;
-  Body body;
-  body.position_m.z() = start.depth_m;
-  body.euler_rad.z() = start.heading_rad;
-  body.velocity[0] = start.speed_m_s;
-  return body;
-}
 
 const std::vector<double>& LayoutMissionHelm::next(double /*time_s*/, double step_s, const Body& body) {
   steps_.add_way(body.velocity.head<3>().norm() * step_s);

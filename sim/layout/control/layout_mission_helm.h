@@ -9,6 +9,7 @@
 #include "config/mission.h"
 #include "sim/layout/control/layout_autopilot.h"
 #include "sim/layout/layout_helm.h"
+#include "sim/vehicle/mission_helm.h"
 
 namespace navcal::sim {
 
@@ -23,7 +24,7 @@ class LayoutMissionHelm final : public LayoutHelm {
   LayoutMissionHelm(const LayoutMissionHelm&) = delete;
   LayoutMissionHelm& operator=(const LayoutMissionHelm&) = delete;
 
-  [[nodiscard]] Body start() const override;
+  [[nodiscard]] Body start() const override { return body_at(steps_.mission().start); }
   [[nodiscard]] const std::vector<double>& next(double time_s, double step_s, const Body& body) override;
   [[nodiscard]] bool finished() const override { return steps_.finished(); }
   [[nodiscard]] const ControlPlan& plan() const { return plan_; }
