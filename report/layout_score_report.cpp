@@ -38,14 +38,7 @@ nlohmann::ordered_json layout_score_object(const validation::TrialScore& score) 
 
 std::string layout_score_text(const validation::LayoutScores& scores) {
   std::string out = fmt::format("{} of {} cases answered\n\n", scores.answered, scores.cases);
-  constexpr const char* kScoreRow = "{:<46}{:>9}  {:<16}{:<13}{:<16}{}\n";
-  out += fmt::format(fmt::runtime(kScoreRow), "", "score", "95 %", "cases", "target", "");
-  for (const validation::TrialScore& score : scores.scores) {
-    std::string row = fmt::format(fmt::runtime(kScoreRow), score.name, value_text(score), interval_text(score),
-                                  count_text(score), target_text(score), met_text(score));
-    row.erase(row.find_last_not_of(" \n") + 1);
-    out += row + '\n';
-  }
+  out += scores_text(scores.scores, 46);
   out += fmt::format("\n{:<12}", "");
   each_outcome([&](std::string_view name, std::size_t) { out += fmt::format("{:>12}", name); });
   out += '\n';

@@ -10,17 +10,6 @@
 namespace navcal::report {
 namespace {
 
-void append_scores(std::string& out, const validation::TrialScores& scores) {
-  constexpr const char* kRow = "{:<42}{:>9}  {:<16}{:<13}{:<16}{}\n";
-  out += fmt::format(fmt::runtime(kRow), "", "score", "95 %", "cases", "target", "");
-  for (const validation::TrialScore& score : scores.scores) {
-    std::string row = fmt::format(fmt::runtime(kRow), score.name, value_text(score), interval_text(score),
-                                  count_text(score), target_text(score), met_text(score));
-    row.erase(row.find_last_not_of(" \n") + 1);
-    out += row + '\n';
-  }
-}
-
 void append_mistakes(std::string& out, const TrialReport& report) {
   constexpr int kShown = 20;
   int mistakes = 0;
@@ -47,7 +36,7 @@ std::string trial_text(const TrialReport& report) {
                   report.asked_for, report.seed, report.minutes, report.places);
   if (!report.ended_early.empty()) append_format(out, "Ended early: {}\n", report.ended_early);
   out += '\n';
-  append_scores(out, report.scores);
+  out += scores_text(report.scores.scores, 42);
   append_mistakes(out, report);
   out += '\n' + targets_text(report.scores) + '\n';
   return out;
