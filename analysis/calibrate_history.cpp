@@ -46,8 +46,8 @@ void CalibrateHistory::on_sample(const instruments::Sample& sample) {
     if (sample.port != ports_.imu) return;
     if (const auto reading = pipeline::calib_reading(*imu, sample.stamp, seconds(sample))) put(*reading);
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
-    if (sample.port == ports_.motor && motor->rpm)
-      put(calib::MotorReading{seconds(sample), *motor->rpm, motor->current_A});
+    if (sample.port == ports_.motor && (motor->rpm || motor->current_A))
+      put(calib::MotorReading{seconds(sample), motor->rpm, motor->current_A});
   }
 }
 

@@ -43,8 +43,9 @@ struct GroundReading {
 
 struct MotorReading {
   double time_s = 0;
-  double rpm = 0;
-  std::optional<double> current_A{};  ///< nullopt: the card does not say
+  // Each nullopt where the device does not say.
+  std::optional<double> rpm{};
+  std::optional<double> current_A{};
 };
 
 /// A true heading by an external reference, independent of the compass.

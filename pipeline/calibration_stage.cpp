@@ -107,7 +107,8 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
     motor_current_A_ = *motor.current_A;
     motor_current_ns_ = sample.stamp.validity_ns;
   }
-  if (motor.rpm) suite_.put(calib::MotorReading{seconds(sample.stamp.validity_ns), *motor.rpm, motor.current_A});
+  if (motor.rpm || motor.current_A)
+    suite_.put(calib::MotorReading{seconds(sample.stamp.validity_ns), motor.rpm, motor.current_A});
 }
 
 std::string CalibrationStage::order(CalibrationOrder order, Calibrator calibrator, std::int64_t now_ns,

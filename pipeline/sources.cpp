@@ -141,7 +141,9 @@ CalibratedPorts calibrated_ports(const config::Settings& settings) {
           first[Role::heading_reference]};
 }
 
-Sources::Sources(const config::Settings& settings) : compass_role_(pipeline::compass_role(settings)) {
+Sources::Sources(const config::Settings& settings) {
+  const Role compass = pipeline::compass_role(settings);
+  if (compass == Role::heading || pipeline::is_certain(settings, compass)) compass_role_ = compass;
   for (const Role role : kRoles) {
     Service& service = services_.at(static_cast<std::size_t>(role));
     for (const std::uint16_t port : pipeline::candidates(settings, role)) service.candidates.push_back({port});
@@ -171,7 +173,17 @@ std::vector<Sources::Change> Sources::take(const instruments::Sample& sample) {
     if (const auto change = take(services_.at(static_cast<std::size_t>(role)), role, sample))
       changes.push_back(*change);
   }
+  if (!compass_role_) choose_compass(sample.stamp.arrival_ns);
   return changes;
+}
+
+void Sources::choose_compass(std::int64_t now_ns) {
+  const auto& began_ns = service(Role::heading).began_ns;
+  if (service(Role::field).began_ns) {
+    compass_role_ = Role::field;
+  } else if (began_ns && now_ns - *began_ns >= kSilent_ns) {
+    compass_role_ = Role::heading;
+  }
 }
 
 std::optional<Sources::Change> Sources::take(Service& service, Role role, const instruments::Sample& sample) {
@@ -249,7 +261,8 @@ CalibratedPorts Sources::learnt() const {
     const Service& it = service(role);
     return it.learnt && !it.candidates.empty() ? std::optional(it.candidates[*it.learnt].port) : std::nullopt;
   };
-  return {of(compass_role_), of(Role::rates), of(Role::position), of(Role::shaft), of(Role::heading_reference)};
+  return {compass_role_ ? of(*compass_role_) : std::nullopt, of(Role::rates), of(Role::position), of(Role::shaft),
+          of(Role::heading_reference)};
 }
 
 void Sources::go_on_with(const CalibratedPorts& learnt) {
@@ -259,7 +272,9 @@ void Sources::go_on_with(const CalibratedPorts& learnt) {
       if (port && service.candidates[i].port == *port) service.learnt = i;
     }
   };
-  set(compass_role_, learnt.compass);
+  for (const Role role : {Role::field, Role::heading}) {
+    if (!compass_role_ || role == *compass_role_) set(role, learnt.compass);
+  }
   set(Role::rates, learnt.imu);
   set(Role::position, learnt.gps);
   set(Role::shaft, learnt.motor);

@@ -36,7 +36,8 @@ class RoleSet {
 
 /// Ports that the calibrators may learn a role from: the first candidate where it is certain, else all.
 [[nodiscard]] std::vector<std::uint16_t> learnable(const config::Settings& settings, Role role);
-/// The role of the compass that is calibrated: the field where any port can give it, else the heading.
+/// The role of the compass that is calibrated, before anything has come: the field where any port can give it,
+/// else the heading.
 [[nodiscard]] Role compass_role(const config::Settings& settings);
 
 /// Which port serves which role, by what the ports deliver. The best port that delivers serves. Of receivers the
@@ -48,7 +49,8 @@ class RoleSet {
 ///
 /// Calibrators learn from one instrument only: what they learn from does not fall over. It is the best port, where
 /// its protocol always says what it takes or there is no other. Else it is the best that has delivered within
-/// kSilent_ns of the first one.
+/// kSilent_ns of the first one. A field that may come and has not, kSilent_ns after the first heading, is not
+/// waited for.
 class Sources {
  public:
   static constexpr std::int64_t kSilent_ns = 3'000'000'000;
@@ -98,11 +100,12 @@ class Sources {
     bool is_chosen = false;  ///< by [roles]
   };
   [[nodiscard]] const Service& service(Role role) const { return services_.at(static_cast<std::size_t>(role)); }
+  void choose_compass(std::int64_t now_ns);
   static std::optional<Change> take(Service& service, Role role, const instruments::Sample& sample);
   static bool is_better(const Service& service, std::size_t place);
 
   std::array<Service, kRoles.size()> services_;
-  Role compass_role_;
+  std::optional<Role> compass_role_;  ///< field or heading, once it is known which is learnt from
 };
 
 }  // namespace navcal::pipeline

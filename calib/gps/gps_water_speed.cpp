@@ -21,9 +21,9 @@ double WaterSpeed::advanced(double duration_s) const {
 }
 
 void WaterSpeed::update(const MotorReading& motor) {
-  if (!std::isfinite(motor.time_s + motor.rpm) || (started_ && motor.time_s <= time_s_)) return;
+  if (!motor.rpm || !std::isfinite(motor.time_s + *motor.rpm) || (started_ && motor.time_s <= time_s_)) return;
   if (started_) speed_m_s_ = advanced(motor.time_s - time_s_);
-  revolutions_per_s_ = std::max(0.0, motor.rpm / 60);  // astern the propeller gives nothing
+  revolutions_per_s_ = std::max(0.0, *motor.rpm / 60);  // astern the propeller gives nothing
   // It is unknown whether the vehicle has just started; a vehicle under way is more probable.
   if (!started_) speed_m_s_ = parameters_.advance_m * revolutions_per_s_;
   started_ = true;

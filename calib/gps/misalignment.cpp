@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,7 +27,9 @@ void Misalignment::add(const StraightRun::Line& line, Sum& sum) const {
   const double weight =
       1 / (line.course_std_rad * line.course_std_rad + parameters_.run_std_rad * parameters_.run_std_rad);
   sum.information += weight * row * row.transpose();
-  sum.right += weight * row * std::remainder(offset_rad - sum.about_rad, 2 * std::numbers::pi);
+  const double from_first_rad = std::remainder(offset_rad - sum.about_rad, 2 * std::numbers::pi);
+  sum.right += weight * row * from_first_rad;
+  sum.square += weight * from_first_rad * from_first_rad;
   sum.directions += weight * Eigen::Vector2d(cosine, sine);
   sum.length_m += line.length_m;
   ++sum.runs;
@@ -43,8 +46,11 @@ std::optional<Misalignment::Estimate> Misalignment::estimate() const {
   const Eigen::Matrix3d covariance = solver.solve(Eigen::Matrix3d::Identity());
   Estimate estimate;
   estimate.offset_rad = std::remainder(sum.about_rad + solution[0], 2 * std::numbers::pi);
-  estimate.offset_std_rad = std::sqrt(covariance(0, 0));
-  estimate.offset_std_without_current_rad = 1 / std::sqrt(sum.information(0, 0));
+  // Of an uncalibrated compass the offset depends on the heading, and more runs do not make it known better.
+  if (sum.runs > 1)
+    estimate.scatter = std::sqrt(std::max(1.0, (sum.square - sum.right.dot(solution)) / (sum.runs - 1)));
+  estimate.offset_std_rad = estimate.scatter * std::sqrt(covariance(0, 0));
+  estimate.offset_std_without_current_rad = estimate.scatter / std::sqrt(sum.information(0, 0));
   // Seen from headings that are all off by A, the current is turned by as much.
   estimate.current_m_s = Eigen::Rotation2Dd(-estimate.offset_rad) * solution.tail<2>();
   estimate.current_std_m_s = covariance.diagonal().tail<2>().cwiseSqrt();
@@ -66,9 +72,13 @@ Judgement Misalignment::judgement() const {
   judgement.coverage = found->direction_balance;
   const double least = found->offset_std_without_current_rad;
   judgement.condition = found->offset_std_rad / least;
-  judgement.accepted = found->offset_std_rad <= parameters_.accepted_std_rad;
+  const bool contradict = found->scatter > parameters_.most_scatter;
+  judgement.accepted = found->offset_std_rad <= parameters_.accepted_std_rad && !contradict;
   if (judgement.accepted) return judgement;
-  if (least <= parameters_.accepted_std_rad) {
+  if (contradict) {
+    judgement.reason = "the runs contradict each other: the error of the heading depends on the heading";
+    judgement.manoeuvre = "calibrate the compass first: turn full circles, both ways round";
+  } else if (least <= parameters_.accepted_std_rad) {
     judgement.reason = "all runs lead one way: a current could feign the misalignment";
     judgement.manoeuvre = "run straight the other way, as long again";
   } else {
@@ -79,7 +89,7 @@ Judgement Misalignment::judgement() const {
 }
 
 void Misalignment::archive(Archive& archive) {
-  archive.tag("misalignment 1");
+  archive.tag("misalignment 2");
   archive(run_, closed_);
 }
 

@@ -26,15 +26,17 @@ class Misalignment {
     double run_std_rad = 0.2 * 0.017453292519943295;  ///< of a run's mean heading and slip, beside its fixes
     double current_std_m_s = 0.15;                    ///< prior, each axis
     double accepted_std_rad = 0.01745;                ///< an A with a larger standard deviation is not accepted
+    double most_scatter = 2;                          ///< of the runs, in their standard deviations
   };
   struct Estimate {
-    double offset_rad = 0;                                  ///< A
-    double offset_std_rad = 0;                              ///< with what a current of the prior could feign
+    double offset_rad = 0;      ///< A
+    double offset_std_rad = 0;  ///< with what a current of the prior could feign, and with the scatter of the runs
     double offset_std_without_current_rad = 0;              ///< standard deviation of A in still water
     Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  ///< north, east
     Eigen::Vector2d current_std_m_s = Eigen::Vector2d::Zero();
     std::uint32_t runs = 0;
     double length_m = 0;           ///< of all runs together
+    double scatter = 1;            ///< of the runs about the estimate, in their standard deviations; at least 1
     double direction_balance = 0;  ///< 0 all runs one way .. 1 as much each way, weighted as they count
   };
 
@@ -60,8 +62,9 @@ class Misalignment {
     Eigen::Vector2d directions = Eigen::Vector2d::Zero();  ///< weighted sum of unit vectors
     double about_rad = 0;  ///< the first run's A, from which the others are counted, so that no seam matters
     double length_m = 0;
+    double square = 0;  ///< weighted, of the offsets from about_rad
     std::uint32_t runs = 0;
-    void archive(Archive& archive) { archive(information, right, directions, about_rad, length_m, runs); }
+    void archive(Archive& archive) { archive(information, right, directions, about_rad, length_m, square, runs); }
   };
   void add(const StraightRun::Line& line, Sum& sum) const;
 

@@ -203,10 +203,10 @@ bool Gate::clean(GroundReading& reading) {
 }
 
 bool Gate::clean(MotorReading& reading) {
-  const Fitness fit = fitness(reading.rpm, kMaxRpm);
+  const Fitness fit = fitness(reading.rpm.value_or(0), kMaxRpm);
   if (fit != Fitness::good) count(Stream::motor, rejection(fit));
   if (reading.current_A && fitness(*reading.current_A, kMaxCurrent_A) != Fitness::good) reading.current_A.reset();
-  return fit == Fitness::good;
+  return fit == Fitness::good && (reading.rpm || reading.current_A);
 }
 
 void Gate::watch_frozen(const Reading& reading) {
@@ -265,7 +265,8 @@ bool Gate::release(QueuedReading& entry, CompassReading& reading) {
 }
 
 void Gate::watch_motor(const MotorReading& motor) {
-  const bool on = std::abs(motor.rpm) >= options_.motor_on_rpm;
+  if (!motor.rpm) return;
+  const bool on = std::abs(*motor.rpm) >= options_.motor_on_rpm;
   if (motor_on_ && *motor_on_ != on) motor_switched_s_ = motor.time_s;
   motor_on_ = on;
 }
@@ -278,7 +279,7 @@ void Gate::watch_gap(Stream stream, double time_s) {
 }
 
 void Gate::archive(Archive& archive) {
-  archive.tag("gate 2");
+  archive.tag("gate 3");
   archive(queue_, counts_, newest_s_, released_s_, offset_s_, front_s_, back_s_);
   archive(restart_pending_, flushing_, reversed_in_a_row_, field_, heading_, rates_, motor_on_, motor_switched_s_);
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A..E by GPS through `navcal simulate` and `navcal calibrate`, with and without an inertial card.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <sstream>
 #include <string>
 
 #include "tests/cli/calibrate_program.h"
@@ -79,6 +82,47 @@ TEST_F(CalibrateSurface, WithoutEachOtherInstrumentTheAnswerNamesIt) {
     EXPECT_NE(json[calibrator]["reason"].get<std::string>().find(word), std::string::npos)
         << port << ": " << json[calibrator]["reason"];
   }
+}
+
+TEST_F(CalibrateSurface, TheShippedSwingShowsAllEightHeadings) {
+  output_of("simulate --mission calibration_swing --seed 2 -o all.cap");
+  const auto swing = calibrated("all.cap")["swing"];
+  EXPECT_EQ(swing["accepted"], true) << swing;
+  EXPECT_EQ(swing["coverage"], 1) << swing;
+}
+
+/// The motor's card replaced by a program that knows the current alone.
+TEST_F(CalibrateSurface, TheMotorsCurrentNeedsNoSpeedOfItsShaft) {
+  write("motor.toml", "[motor_field]\nx_uT_per_A = 0.9\ny_uT_per_A = -0.6\nz_uT_per_A = 1.1\n");
+  output_of("simulate --mission identification --seconds 230 --seed 3 --effects motor.toml -o all.cap");
+  std::istringstream samples(output_of("replay all.cap"));
+  leave_out("motor");
+  std::multimap<double, std::string> lines;
+  std::ifstream rest(folder_ / "rest.cap");
+  std::string head;
+  for (std::string line; std::getline(rest, line);) {
+    if (line.starts_with('#') && lines.empty())
+      head += line + '\n';
+    else if (!line.starts_with('#'))
+      lines.emplace(std::stod(line), line);
+  }
+  for (std::string line; std::getline(samples, line);) {
+    if (line.find("\"class\":\"MOTOR\"") == std::string::npos) continue;
+    const auto sample = nlohmann::json::parse(line);
+    const double time_s = sample["time"];
+    std::string bytes;
+    const std::string text = fmt::format(R"({{"class":"MOTOR","current_A":{},"time":{:.6f},"time_std":0.01}})",
+                                         sample["current_A"].get<double>(), time_s) +
+                             "\n";
+    for (const char c : text) bytes += fmt::format("{:02x}", static_cast<unsigned char>(c));
+    lines.emplace(time_s + 0.02, fmt::format("{:.9f} shunt < {}", time_s + 0.02, bytes));
+  }
+  head += "#port shunt samples 4000000\n";
+  for (const auto& [time_s, line] : lines) head += line + '\n';
+  write("a.cap", head);
+  const auto motor = calibrated("a.cap")["motor_current"];
+  EXPECT_EQ(motor["accepted"], true) << motor;
+  EXPECT_NEAR(motor["slope_uT_per_A"][0].get<double>(), 0.9, 4 * motor["std"][0].get<double>()) << motor;
 }
 
 }  // namespace

@@ -150,6 +150,26 @@ TEST(Sources, CalibratorsWaitForTheBestThatDelivers) {
   EXPECT_EQ(sources.serving()[Role::heading], 0);
 }
 
+// A port of injected samples could deliver a field. That kept the calibrators from a compass of NMEA for ever.
+TEST(Sources, AFieldThatNeverComesIsNotWaitedFor) {
+  const auto settings = with({Protocol::nmea, Protocol::samples});
+  Sources sources(settings);
+  for (const double time_s : {0.0, 1.0, 2.9}) (void)take(sources, heading(0, time_s));
+  EXPECT_FALSE(sources.learnt().compass) << "a field may come";
+  (void)take(sources, heading(0, 3.1));
+  EXPECT_EQ(sources.learnt().compass, 0);
+
+  Sources with_field(settings);
+  instruments::Sample field = heading(1, 0.5);
+  std::get<instruments::CompassSample>(field.value).field_body_uT = instruments::Vector3{20, 0, 40};
+  (void)with_field.take(heading(0, 0));
+  (void)with_field.take(field);
+  EXPECT_EQ(with_field.learnt().compass, 1) << "the calibrators want the field";
+  with_field.begin_run();
+  for (const double time_s : {0.0, 4.0}) (void)with_field.take(heading(0, time_s));
+  EXPECT_EQ(with_field.learnt().compass, 1) << "they do not mix two compasses";
+}
+
 TEST(Sources, ASlowReceiverIsNotTakenForSilent) {
   Sources sources(with({Protocol::nmea, Protocol::nmea}));
   int changes = 0;

@@ -27,8 +27,9 @@ Misalignment::Parameters quiet_parameters() {
 /// A vehicle with a helmsman; headings ten times a second, fixes once.
 struct Voyage {
   Misalignment& misalignment;
-  double position_std_m = 2.5, heading_std_rad = 0.004, wander_rad = 0;
+  double position_std_m = 2.5, heading_std_rad = 0.004, wander_rad = 0, deviation_rad = 0;
   Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();
+  int harmonic = 1;  ///< of the deviation; the first is that of a current, which cannot be as large
   std::mt19937_64 random{1};
   int tick = 0;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
@@ -39,7 +40,8 @@ struct Voyage {
     for (int k = 0; k < ticks; ++k, ++tick) {
       const double time_s = tick / 10.0;
       const double psi = heading_rad + turn_rate_rad_s * k / 10.0 + wander_rad * std::sin(0.4 * time_s);
-      misalignment.update_heading(time_s, psi + kOffset_rad + heading_std_rad * normal(random));
+      misalignment.update_heading(
+          time_s, psi + kOffset_rad + deviation_rad * std::cos(harmonic * psi) + heading_std_rad * normal(random));
       const Eigen::Vector2d velocity = kSpeed_m_s * Eigen::Vector2d(std::cos(psi), std::sin(psi)) + current_m_s;
       if (tick % 10 == 0) {
         GroundReading ground;
@@ -102,6 +104,27 @@ TEST(Misalignment, RunsBothWaysTellTheCurrentFromIt) {
   EXPECT_LT((estimate->current_m_s - voyage.current_m_s).norm(), 0.01);
   EXPECT_GT(estimate->direction_balance, 0.8);
   EXPECT_TRUE(misalignment.judgement().accepted);
+}
+
+// Of an uncalibrated compass four legs said -21, -79, 94 and 30 degrees; their mean was accepted with 0.6.
+TEST(Misalignment, RunsThatContradictEachOtherAreNoMisalignment) {
+  for (const auto& [deviation_deg, harmonic] : {std::pair{0.0, 1}, {40.0, 1}, {5.0, 2}}) {
+    Misalignment misalignment;
+    Voyage voyage{misalignment};
+    voyage.deviation_rad = deviation_deg * base::kRadiansPerDegree;
+    voyage.harmonic = harmonic;
+    for (const double heading :
+         {0.0, 90 * base::kRadiansPerDegree, 180 * base::kRadiansPerDegree, 270 * base::kRadiansPerDegree}) {
+      voyage.go(heading, 300);
+      voyage.turn(heading, 90 * base::kRadiansPerDegree);
+    }
+    const Judgement judgement = misalignment.judgement();
+    const auto estimate = misalignment.estimate();
+    ASSERT_TRUE(estimate);
+    EXPECT_EQ(judgement.accepted, deviation_deg == 0) << deviation_deg;
+    EXPECT_LT(std::abs(estimate->offset_rad - kOffset_rad), 3 * estimate->offset_std_rad) << deviation_deg;
+    if (deviation_deg > 0) EXPECT_NE(judgement.reason.find("contradict each other"), std::string::npos);
+  }
 }
 
 TEST(Misalignment, OneWayAloneSaysThatACurrentCouldFeignIt) {

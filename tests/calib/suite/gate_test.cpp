@@ -156,6 +156,14 @@ TEST(Gate, MagneticReadingsAboutASwitchOfTheMotorAreLeftOutAndTheirTiltIsNot) {
   EXPECT_EQ(tilts, 100U);
 }
 
+TEST(Gate, AMotorsCurrentPassesWithoutItsSpeed) {
+  Gate gate;
+  const auto out = through(gate, {MotorReading{1, {}, 2.0}, MotorReading{2, {}, {}}, MotorReading{3, 1e6, 2.0}});
+  ASSERT_EQ(out.size(), 1U);
+  EXPECT_EQ(std::get<MotorReading>(out.front()).current_A, 2.0);
+  EXPECT_FALSE(std::get<MotorReading>(out.front()).rpm);
+}
+
 TEST(Gate, WhenTimeBeginsAnewItGoesOnLater) {
   std::vector<Reading> readings;
   for (int i = 0; i < 100; ++i) readings.emplace_back(rate(1000 + i * 0.1));
