@@ -12,10 +12,8 @@ namespace navcal::analysis {
 [[nodiscard]] bool is_mavlink_log(std::string_view head);
 
 /// MAVLink telemetry log (.tlog): frames of version 1 or 2, each behind the UTC of the computer that received it,
-/// eight bytes, big endian, in microseconds. Frames are checked where the CRC_EXTRA of their message is known
-/// here. Units and axes are those of the messages' definitions (common.xml); RAW_IMU is read as ArduPilot fills
-/// it. The first system that sends a message of a vehicle is taken. `channels` become
-/// shaft and fins. docs/import.md has the table.
+/// eight bytes, big endian, in microseconds. instruments::MavlinkDecoder reads them, as it does live. `channels`
+/// become shaft and fins. docs/import.md has the table.
 [[nodiscard]] ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels);
 
 }  // namespace navcal::analysis

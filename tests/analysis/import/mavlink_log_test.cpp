@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/import/mavlink_frame.h"
+#include "protocols/mavlink.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
@@ -25,6 +25,10 @@ std::string payload_of(Values... values) {
   return payload;
 }
 
+std::uint16_t sum_of(const std::string& bytes) {
+  return protocols::mavlink::checksum({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+}
+
 /// One entry of a telemetry log: time, and a frame of version 1 or 2.
 std::string entry(std::uint64_t time_us, std::uint32_t id, std::string payload, std::uint8_t crc_extra,
                   bool is_second, std::uint8_t system = 1) {
@@ -42,8 +46,15 @@ std::string entry(std::uint64_t time_us, std::uint32_t id, std::string payload, 
     frame.push_back(static_cast<char>(id >> 16));
   }
   frame += payload;
-  append_number(frame, mavlink::checksum(frame, crc_extra));
+  append_number(frame, sum_of(frame + static_cast<char>(crc_extra)));
   return time + (is_second ? '\xFD' : '\xFE') + frame;
+}
+
+std::string vehicle() {
+  return entry(kStart_us, 0,
+               payload_of(std::uint32_t{0}, std::uint8_t{12}, std::uint8_t{3}, std::uint8_t{0}, std::uint8_t{4},
+                          std::uint8_t{3}),
+               50, true);
 }
 
 std::string small_tlog(bool is_second) {
@@ -115,7 +126,7 @@ TEST(MavlinkLog, ReadsEachMessageInUnitsOfNavcal) {
 
 // Bytes that pymavlink's CRC gives for the heartbeat of the MAVLink guide: X.25 of "123456789" is 0x6F91 before
 // its complement, which MAVLink leaves out.
-TEST(MavlinkLog, TheChecksumIsThatOfTheSpecification) { EXPECT_EQ(mavlink::checksum("12345678", '9'), 0x6F91); }
+TEST(MavlinkLog, TheChecksumIsThatOfTheSpecification) { EXPECT_EQ(sum_of("123456789"), 0x6F91); }
 
 TEST(MavlinkLog, EverySampleIsInTheLogOrCountedAsLeft) {
   const auto written = testing::expect_counts_agree("tlog", small_tlog(true));
@@ -125,8 +136,8 @@ TEST(MavlinkLog, EverySampleIsInTheLogOrCountedAsLeft) {
 }
 
 TEST(MavlinkLog, AFrameWithADamagedByteIsPassedOver) {
-  std::string log = small_tlog(true);
-  log[8 + 12] = '\x55';
+  std::string log = vehicle() + small_tlog(true);
+  log[vehicle().size() + 8 + 12] = '\x55';
   RecordingSink sink;
   const auto findings = read_mavlink_log(log, sink);
   EXPECT_GT(findings.damaged_bytes, 0U);
@@ -165,6 +176,102 @@ TEST(MavlinkLog, OutputsBehindTheEighthAreThoseOfVersion2) {
   (void)read_mavlink_log(small_tlog(true) + entry(kStart_us + 9000, 36, payload, 222, true), sink);
   EXPECT_EQ(sink.of_port("motor").back().line["quantity"], "output9");
   EXPECT_EQ(sink.of_port("motor").back().line["value"], 1234);
+}
+
+std::string distance(std::uint16_t cm, std::uint8_t orientation, std::uint8_t quality) {
+  return payload_of(std::uint32_t{700}, std::uint16_t{30}, std::uint16_t{5000}, cm, std::uint8_t{2},
+                    std::uint8_t{0}, orientation, std::uint8_t{4}) +
+         std::string(24, '\0') + static_cast<char>(quality);
+}
+
+TEST(MavlinkLog, EchoesAreThoseThatLookDownAndAreValid) {
+  RecordingSink sink;
+  (void)read_mavlink_log(vehicle() + entry(kStart_us, 132, distance(250, 25, 90), 85, true) +
+                             entry(kStart_us, 132, distance(260, 24, 90), 85, true) +
+                             entry(kStart_us, 132, distance(270, 25, 1), 85, true) +
+                             entry(kStart_us, 132, distance(6000, 25, 90), 85, true) +
+                             entry(kStart_us, 173, payload_of(9.0F, 0.0F), 83, true),
+                         sink);
+  const auto echoes = sink.of_port("altimeter");
+  ASSERT_EQ(echoes.size(), 1U);
+  EXPECT_NEAR(echoes[0].line["altitude_m"].get<double>(), 2.5, 1e-12);
+  EXPECT_NEAR(echoes[0].line["altitude_std_m"].get<double>(), 0.02, 1e-12);
+  EXPECT_EQ(sink.left_counts["RANGEFINDER"], 1);
+}
+
+TEST(MavlinkLog, ARangefinderServesWithoutADistanceSensor) {
+  RecordingSink sink;
+  (void)read_mavlink_log(vehicle() + entry(kStart_us, 173, payload_of(9.0F, 0.0F), 83, true), sink);
+  EXPECT_EQ(sink.of_port("altimeter").at(0).line["altitude_m"], 9);
+}
+
+TEST(MavlinkLog, ABatteryIsTheSumOfItsCellsAndReplacesTheSystemStatus) {
+  std::string cells =
+      payload_of(std::int32_t{0}, std::int32_t{0}, std::int16_t{0}, std::uint16_t{65534}, std::uint16_t{1466});
+  for (int i = 0; i < 8; ++i) append_number(cells, std::uint16_t{65535});
+  append_number(cells, std::int16_t{-1});
+  RecordingSink sink;
+  const std::string status =
+      payload_of(std::uint64_t{0}, std::uint32_t{0}, std::uint16_t{0}, std::uint16_t{15500});
+  (void)read_mavlink_log(vehicle() + entry(kStart_us, 1, status, 124, true) +
+                             entry(kStart_us, 147, cells, 154, true) + entry(kStart_us, 1, status, 124, true),
+                         sink);
+  const auto battery = sink.of_port("battery");
+  ASSERT_EQ(battery.size(), 2U);
+  EXPECT_NEAR(battery[1].line["voltage_V"].get<double>(), 67, 1e-12);
+  EXPECT_FALSE(battery[1].line.contains("current_A"));
+  EXPECT_EQ(sink.left_counts["SYS_STATUS"], 1);
+}
+
+std::string high_resolution(std::uint64_t time_us, float field, std::uint16_t updated) {
+  return payload_of(time_us, 0.5F, 0.0F, -9.8F, 0.25F, 0.0F, 0.0F, field, 0.0F, 0.0F, 1013.25F, 0.0F, 0.0F, 21.5F,
+                    updated) +
+         std::string(1, '\0');
+}
+
+TEST(MavlinkLog, OfHighResolutionIsTakenWhatIsNew) {
+  const std::string raw =
+      payload_of(std::uint64_t{1'100'000}, std::int16_t{7}, std::uint64_t{0}, std::uint64_t{0});
+  RecordingSink sink;
+  (void)read_mavlink_log(vehicle() + entry(kStart_us, 105, high_resolution(1'000'000, 0.25F, 0xFFFF), 93, true) +
+                             entry(kStart_us, 105, high_resolution(1'020'000, 250'000.0F, 0x1FF), 93, true) +
+                             entry(kStart_us, 105, high_resolution(1'040'000, 0.3F, 0x3F), 93, true) +
+                             entry(kStart_us, 27, raw, 144, true),
+                         sink);
+  ASSERT_EQ(sink.of_port("imu").size(), 3U);
+  EXPECT_EQ(sink.left_counts["RAW_IMU"], 1) << "the same unit with less resolution";
+  expect_vector(sink.of_port("imu")[0].line["specific_force_m_s2"], 0.5, 0, static_cast<double>(-9.8F));
+  const auto compass = sink.of_port("compass");
+  ASSERT_EQ(compass.size(), 1U) << "microgauss for gauss is the same field";
+  expect_vector(compass[0].line["field_body_uT"], 25, 0, 0);
+  ASSERT_EQ(sink.of_port("baro4").size(), 1U);
+  EXPECT_NEAR(sink.of_port("baro4")[0].line["pressure_Pa"].get<double>(), 101'325, 0.01);
+}
+
+TEST(MavlinkLog, AFieldThatIsRepeatedIsTakenOnce) {
+  std::string log = vehicle();
+  for (int i = 0; i < 50; ++i) {
+    const auto field = static_cast<std::int16_t>(100 + i / 5);
+    log += entry(kStart_us + 20'000 * static_cast<unsigned>(i), 116,
+                 payload_of(static_cast<std::uint32_t>(5000 + 20 * i), std::uint64_t{1}, std::uint32_t{0}, field,
+                            std::int16_t{0}, std::int16_t{0}),
+                 76, true);
+  }
+  RecordingSink sink;
+  (void)read_mavlink_log(log, sink);
+  EXPECT_EQ(sink.of_port("imu2").size(), 50U);
+  EXPECT_EQ(sink.of_port("compass2").size(), 10U);
+}
+
+TEST(MavlinkLog, NothingIsReadOfAVehicleWithoutAnAutopilot) {
+  const std::string pressure = payload_of(std::uint32_t{5}, 1350.0F, 0.0F, std::int16_t{1850});
+  RecordingSink sink;
+  (void)read_mavlink_log(
+      entry(kStart_us, 137, pressure, 195, true) + vehicle() +
+          entry(kStart_us, 137, payload_of(std::uint32_t{5}, 0.0F, 0.0F, std::int16_t{1850}), 195, true),
+      sink);
+  EXPECT_TRUE(sink.of_port("baro2").empty());
+  EXPECT_EQ(sink.of_port("sensors").at(0).line["value"], 18.5) << "a thermometer has no pressure";
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "instruments/instrument.h"
+#include "protocols/mavlink.h"
+
+namespace navcal::instruments {
+
+/// One sample of a message. Of a compass it holds the field, or the attitude that the autopilot estimates.
+struct MavlinkReading {
+  Value value;
+  int instance = 0;  ///< 0: the first sensor of its kind. Of SERVO_OUTPUT_RAW: number of the output
+  std::optional<std::int64_t> device_time_ns{};  ///< by the clock of the component that sent it
+};
+
+/// Samples of MAVLink messages (ICD, "MAVLink"), live and in logs.
+///
+/// The vehicle is the first system whose autopilot (component 1) sends a heartbeat; one that keeps silent for ten
+/// heartbeats of another autopilot is left for it. Other systems and components are not read, but for echo
+/// sounders of the vehicle. A field is taken when it has changed, since an autopilot repeats it.
+class MavlinkDecoder {
+ public:
+  static constexpr int kPrimaryBarometer = 3;  ///< instance of HIGHRES_IMU's pressure
+
+  /// What a message holds; nothing where it is of no use. Valid until the next call.
+  [[nodiscard]] std::span<const MavlinkReading> read(const protocols::mavlink::Message& message);
+  [[nodiscard]] std::optional<std::uint8_t> vehicle() const { return vehicle_; }
+
+ private:
+  using Payload = protocols::mavlink::Payload;
+  static constexpr std::size_t kUnits = 3;
+  struct Unit {
+    std::optional<Vector3> field_uT;
+    std::int64_t field_ns = 0;                       ///< when it was taken
+    std::optional<std::int64_t> high_resolution_ns;  ///< newest HIGHRES_IMU
+  };
+
+  void read_heartbeat(const protocols::mavlink::Message& message, const Payload& payload);
+  void read_integers(const Payload& payload, std::size_t first, std::size_t temperature, int instance);
+  void read_floats(const Payload& payload);
+  void take(int instance, const ImuSample& imu, const std::optional<Vector3>& field_uT);
+  void take_pressure(double hPa, double temperature_C, int instance);
+  void read_gps(const Payload& payload);
+  void read_battery(const Payload& payload);
+  void read_outputs(const Payload& payload);
+  void read_echo(const protocols::mavlink::Message& message, const Payload& payload);
+  void put(const Value& value, int instance = 0);
+  /// Time of the message since the boot, by a counter that begins anew after `span_ns`; 0: never. One that is not
+  /// current counts near the newest alone.
+  void set_time(std::int64_t time_ns, std::int64_t span_ns, bool is_current);
+  void set_boot_ms(const Payload& payload);  ///< 32 bits at the beginning
+  void set_boot_us(const Payload& payload);  ///< 64 bits likewise
+
+  std::vector<MavlinkReading> readings_;
+  std::optional<std::uint8_t> vehicle_;
+  int others_ = 0;  ///< heartbeats of another autopilot since the last of the vehicle
+  std::map<std::uint8_t, std::int64_t> newest_ns_;  ///< by component
+  std::uint8_t component_ = 0;                      ///< of the message being read
+  std::optional<std::int64_t> time_ns_;             ///< likewise
+  std::array<Unit, kUnits> units_{};
+  std::uint64_t fix_us_ = 0;
+  bool has_battery_status_ = false;
+  std::uint32_t echo_source_ = 0;
+};
+
+[[nodiscard]] std::unique_ptr<Instrument> make_mavlink(const config::PortSettings& settings);
+
+}  // namespace navcal::instruments

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocols/mavlink.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "tests/protocols/stream.h"
+
+namespace navcal::protocols::mavlink {
+namespace {
+
+using test::Buffer;
+using Verdict = Found::Verdict;
+
+Buffer bytes_of(std::string_view hex) {
+  Buffer bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16)));
+  return bytes;
+}
+
+// Made by node-mavlink.
+const Buffer kHeartbeat = bytes_of("fd090000000101000000036e339c4c9ef8a9a8a4dc");
+const Buffer kSystemTime = bytes_of("fd0c0000060101020000ccfc0638667e030007ee3fc3a37b");
+const Buffer kZeros = bytes_of("fd000000040101010000ce59");
+
+std::vector<std::string> names_in(const Buffer& stream) {
+  std::vector<std::string> names;
+  Parser parser;
+  parser.feed(stream, [&](const Frame& frame) { names.emplace_back(frame.id.view()); });
+  return names;
+}
+
+Buffer joined(std::initializer_list<Buffer> parts) {
+  Buffer all;
+  for (const Buffer& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// A DISTANCE_SENSOR (39 bytes, the last 22 of them zero) with the sum that BlueOS up to 2023 gives it: of all 39.
+Buffer untrimmed() {
+  Buffer whole = bytes_of("fd2700000501c2840000");
+  for (int i = 0; i < 39; ++i) whole.push_back(i < 17 ? static_cast<std::uint8_t>(i + 1) : 0);
+  whole.push_back(85);
+  const std::uint16_t sum = checksum(Bytes(whole).subspan(1));
+  whole.resize(10 + 17);
+  whole[1] = 17;
+  whole.push_back(static_cast<std::uint8_t>(sum));
+  whole.push_back(static_cast<std::uint8_t>(sum >> 8));
+  return whole;
+}
+
+TEST(Mavlink, ReadsTheFieldsOfFramesFromElsewhere) {
+  auto found = find_message(kHeartbeat);
+  ASSERT_EQ(found.verdict, Verdict::frame);
+  EXPECT_EQ(found.message.info->name, "HEARTBEAT");
+  EXPECT_EQ(found.message.system, 1);
+  EXPECT_EQ(found.message.component, 1);
+  EXPECT_EQ(Payload(found.message.payload).at<std::uint32_t>(0), 2620616195U);
+  EXPECT_EQ(Payload(found.message.payload).at<std::uint8_t>(4), 76);
+  found = find_message(kSystemTime);
+  ASSERT_EQ(found.verdict, Verdict::frame);
+  EXPECT_EQ(Payload(found.message.payload).at<std::uint64_t>(0), 983402421877964U);
+  EXPECT_EQ(Payload(found.message.payload).at<std::uint32_t>(8), 3275746823U);
+  found = find_message(kZeros);
+  ASSERT_EQ(found.verdict, Verdict::frame) << "all of its payload was cut";
+  EXPECT_EQ(Payload(found.message.payload).at<std::uint16_t>(14), 0);
+}
+
+TEST(Mavlink, WritesTheFramesOfElsewhere) {
+  EXPECT_EQ(encode(0, {1, 1, 0}, Bytes(kHeartbeat).subspan(10, 9)), kHeartbeat);
+  EXPECT_EQ(encode(2, {1, 1, 6}, Bytes(kSystemTime).subspan(10, 12)), kSystemTime);
+}
+
+TEST(Mavlink, ASumOfBeforeTheCutIsRecoveredAndSaid) {
+  const auto found = find_message(untrimmed());
+  ASSERT_EQ(found.verdict, Verdict::frame);
+  EXPECT_TRUE(found.message.is_untrimmed);
+  EXPECT_EQ(found.message.component, 194);
+  EXPECT_FALSE(find_message(kHeartbeat).message.is_untrimmed);
+  Buffer damaged = untrimmed();
+  damaged[12] ^= 1;
+  EXPECT_EQ(find_message(damaged).verdict, Verdict::bad_checksum);
+}
+
+TEST(Mavlink, AFalseSumCostsOnlyItsOwnFrame) {
+  Buffer damaged = kSystemTime;
+  damaged[15] ^= 0x10;
+  EXPECT_EQ(names_in(joined({kHeartbeat, damaged, kSystemTime, kZeros})),
+            (std::vector<std::string>{"HEARTBEAT", "SYSTEM_TIME", "SYS_STATUS"}));
+  // A byte that begins a frame, with a length that would reach over the two that follow.
+  EXPECT_EQ(names_in(joined({{0xFE, 40, 1}, kHeartbeat, kSystemTime})),
+            (std::vector<std::string>{"HEARTBEAT", "SYSTEM_TIME"}));
+}
+
+TEST(Mavlink, SignedFramesAreReadAndUnknownFlagsAreNot) {
+  Buffer with_flag = kHeartbeat;
+  with_flag[2] = 1;
+  Buffer body(with_flag.begin() + 1, with_flag.end() - 2);
+  body.push_back(50);
+  const std::uint16_t sum = checksum(body);
+  with_flag[with_flag.size() - 2] = static_cast<std::uint8_t>(sum);
+  with_flag.back() = static_cast<std::uint8_t>(sum >> 8);
+  const Buffer signature(13, 0xFD);
+  const auto found = find_message(joined({with_flag, signature}));
+  ASSERT_EQ(found.verdict, Verdict::frame);
+  EXPECT_TRUE(found.message.is_signed);
+  EXPECT_EQ(found.message.length, kHeartbeat.size() + 13);
+  with_flag[2] = 2;
+  EXPECT_EQ(find_message(with_flag).verdict, Verdict::no_frame);
+}
+
+TEST(Mavlink, AMessageThatIsNotKnownHasItsNumber) {
+  Buffer unknown = kHeartbeat;
+  unknown[8] = 0x77;
+  EXPECT_EQ(names_in(joined({unknown, kSystemTime})), (std::vector<std::string>{"MSG 30464", "SYSTEM_TIME"}));
+}
+
+TEST(Mavlink, EachMessageIsFoundByItsNumber) {
+  int known = 0;
+  for (std::uint32_t id = 0; id < 13000; ++id) {
+    const MessageInfo* info = message_of(id);
+    if (info == nullptr) continue;
+    ++known;
+    EXPECT_EQ(info->id, id);
+    EXPECT_GT(info->length, 0) << info->name;
+  }
+  EXPECT_EQ(known, 88);
+}
+
+/// Messages of a telemetry log by their names, of which each stands behind eight bytes of time.
+std::map<std::string, int> counts_of(const std::filesystem::path& file, int& untrimmed) {
+  std::ifstream in(file, std::ios::binary);
+  const Buffer bytes{std::istreambuf_iterator<char>(in), {}};
+  std::map<std::string, int> counts;
+  for (std::size_t at = 8; at < bytes.size();) {
+    const auto found = find_message(Bytes(bytes).subspan(at));
+    if (found.verdict == Verdict::incomplete) break;
+    const bool is_frame = found.verdict == Verdict::frame;
+    if (is_frame && found.message.is_untrimmed) ++untrimmed;
+    if (is_frame && !found.message.is_untrimmed) ++counts[found.message.name()];
+    at += is_frame ? found.message.length + 8 : 1;
+  }
+  return counts;
+}
+
+// NAVCAL_WIRES: a folder with logs of real vehicles, and what node-mavlink counts in them.
+TEST(Mavlink, CountsOfRealLogsAreThoseOfAnotherDecoder) {
+  const char* folder = std::getenv("NAVCAL_WIRES");
+  if (folder == nullptr) GTEST_SKIP() << "NAVCAL_WIRES names no folder";
+  for (const std::string name : {"small", "vtol"}) {
+    std::ifstream in(std::filesystem::path(folder) / "expected" / (name + ".json"));
+    std::stringstream text;
+    text << in.rdbuf();
+    std::string expected = text.str();
+    int untrimmed = 0, total = 0;
+    for (const auto& [message, count] : counts_of(std::filesystem::path(folder) / (name + ".tlog"), untrimmed)) {
+      const std::string pair = '"' + message + "\":" + std::to_string(count);
+      EXPECT_NE(expected.find(pair), std::string::npos) << name << ' ' << pair;
+      total += count;
+    }
+    EXPECT_NE(expected.find("\"frames\":" + std::to_string(total)), std::string::npos) << name << ' ' << total;
+    EXPECT_EQ(untrimmed, 0) << "the bad ones are of shorter definitions of messages";
+  }
+}
+
+}  // namespace
+}  // namespace navcal::protocols::mavlink
