@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "analysis/decode_describe.h"
 #include "protocols/imu_card.h"
+#include "protocols/mavlink.h"
 #include "protocols/motor_card.h"
 
 namespace navcal::analysis {
@@ -34,6 +37,16 @@ void describe_motor_card(FieldWriter& fields, const Frame& frame, const std::opt
   fields.numbers("fins_deg", status.fins_deg);
   fields.number("current_A", status.current_A);
   if (!decoded) write_out_of_range(fields);
+}
+
+void describe_mavlink(FieldWriter& fields, const Frame& frame, const std::optional<Date>&) {
+  const auto message = protocols::mavlink::find_message(frame.bytes).message;
+  fields.text("message", message.name());
+  fields.number("system", message.system);
+  fields.number("component", message.component);
+  if (message.is_signed) fields.flag("signed", true);
+  if (message.is_untrimmed) fields.flag("untrimmed", true);
+  fields.text("payload", fmt::format("{:02x}", fmt::join(message.payload, "")));
 }
 
 }  // namespace navcal::analysis

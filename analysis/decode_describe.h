@@ -18,6 +18,7 @@ using Describe = void (*)(FieldWriter& fields, const protocols::Frame& frame,
 void describe_tcm2(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_imu_card(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_motor_card(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_mavlink(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_oncore(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_nmea(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_samples(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);

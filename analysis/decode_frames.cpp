@@ -29,6 +29,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::paroscientific, describe_paroscientific},
     {Protocol::keller, describe_keller},
     {Protocol::described, nullptr},  // by a description of its own: decode_described.h
+    {Protocol::mavlink, describe_mavlink},
 });
 
 using NextBytes = std::function<protocols::Bytes()>;

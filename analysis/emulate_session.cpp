@@ -119,9 +119,8 @@ std::optional<EmulatedDevice> parse_emulated_device(std::string_view text) {
   const std::string_view port = text.substr(0, equals);
   const auto in_name = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
   const auto protocol = protocols::protocol_named(text.substr(equals + 1));
-  // A described device has no emulator: what it measures is known to its file alone.
-  if (protocol == protocols::Protocol::described) return std::nullopt;
-  if (!protocol || !std::all_of(port.begin(), port.end(), in_name)) return std::nullopt;
+  if (!protocol || !sim::has_emulator(*protocol) || !std::all_of(port.begin(), port.end(), in_name))
+    return std::nullopt;
   return EmulatedDevice{std::string(port), *protocol};
 }
 

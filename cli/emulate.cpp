@@ -22,6 +22,7 @@
 #include "config/mission_file.h"
 #include "devices/instrument_model.h"
 #include "protocols/device_types.h"
+#include "sim/instruments/emulators.h"
 #include "sim/layout/layout_helm.h"
 #include "sim/path.h"
 #include "sim/vehicle/body.h"
@@ -146,7 +147,7 @@ std::string mission_names() {
 std::string protocol_names() {
   std::vector<std::string_view> names;
   for (const auto& device : protocols::kDeviceTypes) {
-    if (device.protocol != protocols::Protocol::described) names.push_back(device.name);
+    if (sim::has_emulator(device.protocol)) names.push_back(device.name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -131,6 +131,21 @@ std::vector<Option<P>> make_port_options() {
                           "good: for old devices that send none.",
            .only_for = {protocols::Protocol::nmea}},
           [](auto& p) -> auto& { return p.require_checksum; }),
+      integer<P>(
+          {.key = "inertial_unit",
+           .description = "Number of the autopilot's inertial unit with its compass that is taken.",
+           .low = 1,
+           .high = 3,
+           .only_for = {protocols::Protocol::mavlink}},
+          [](auto& p) -> auto& { return p.inertial_unit; }),
+      integer<P>(
+          {.key = "pressure_sensor",
+           .description = "Number of the autopilot's pressure sensor that is taken; of a BlueROV2 1 is inside the "
+                          "hull. 4: the primary one, by HIGHRES_IMU.",
+           .low = 1,
+           .high = 4,
+           .only_for = {protocols::Protocol::mavlink}},
+          [](auto& p) -> auto& { return p.pressure_sensor; }),
       boolean<P>(
           {.key = "low_latency", .description = "Ask the driver to deliver bytes without delay."},
           [](auto& p) -> auto& { return p.low_latency; }),

@@ -71,6 +71,8 @@ struct PortSettings {
   double latency_s = 0;          ///< from measurement to the first byte on the wire
   double latency_std_s = 0;      ///< its uncertainty
   double rate_Hz = 0;            ///< nominal frame rate; 0: not periodic
+  int inertial_unit = 1;         ///< MAVLink: 1 to 3, with its compass
+  int pressure_sensor = 2;       ///< MAVLink: 1 to 3; 4: the primary barometer of HIGHRES_IMU
   CompassSettings compass;
   ImuCardSettings imu_card;
   GpsSettings gps;

@@ -46,6 +46,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::paroscientific, {make_paroscientific, start_paroscientific}},
     {Protocol::keller, {stateless<read_keller>, start_keller}},
     {Protocol::described, {make_described, start_described}},
+    {Protocol::mavlink, {make_mavlink, start_mavlink}},
 });
 
 }  // namespace

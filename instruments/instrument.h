@@ -40,6 +40,7 @@ struct Measurement {
   std::optional<SenderTime> by_sender{};  ///< of an injected sample
   /// The measurement was sent from the frame on that had the verdict `begins`, not with this frame alone.
   bool of_epoch = false;
+  std::uint8_t clock = 0;  ///< of several clocks at one port: that of device_time_ns
 };
 
 /// Takes measurements as they are found.
@@ -58,8 +59,8 @@ inline void hand_over(const Value& value, Receiver& receiver, bool paces = true)
 /// seconds). No clock.
 class Instrument {
  public:
-  /// `begins`: used, and the first frame of an epoch.
-  enum class Verdict : std::uint8_t { used, begins, ignored, out_of_range };
+  /// `begins`: used, and the first frame of an epoch. `foreign`: of another device on the same line.
+  enum class Verdict : std::uint8_t { used, begins, ignored, foreign, out_of_range };
 
   virtual ~Instrument() = default;
   virtual Verdict read(const protocols::Frame& frame, Receiver& receiver) = 0;

@@ -233,16 +233,15 @@ void MavlinkDecoder::read_echo(const mavlink::Message& message, const Payload& p
   AltimeterSample echo;
   bool is_good = true;
   if (message.id == kDistanceSensor) {
-    const std::uint32_t source = std::uint32_t{component_} + 1;
-    if (payload.at<std::uint8_t>(12) != kDown || (echo_source_ != 0 && echo_source_ != source)) return;
-    echo_source_ = source;
+    if (payload.at<std::uint8_t>(12) != kDown || echo_component_.value_or(component_) != component_) return;
+    echo_component_ = component_;
     set_boot_ms(payload);
     const auto distance_cm = payload.at<std::uint16_t>(8), most_cm = payload.at<std::uint16_t>(6);
     is_good = payload.at<std::uint8_t>(38) != kInvalid && (most_cm == 0 || distance_cm <= most_cm);
     echo.altitude_m = distance_cm * 0.01;
     const auto variance_cm2 = payload.at<std::uint8_t>(13);
     if (variance_cm2 != 0 && variance_cm2 != kNoVariance) echo.altitude_std_m = std::sqrt(variance_cm2) * 0.01;
-  } else if (echo_source_ != 0) {
+  } else if (echo_component_) {
     return;
   } else if (message.id == kRangefinder) {
     echo.altitude_m = payload.at<float>(0);

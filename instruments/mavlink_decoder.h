@@ -67,9 +67,7 @@ class MavlinkDecoder {
   std::array<Unit, kUnits> units_{};
   std::uint64_t fix_us_ = 0;
   bool has_battery_status_ = false;
-  std::uint32_t echo_source_ = 0;
+  std::optional<std::uint8_t> echo_component_;
 };
-
-[[nodiscard]] std::unique_ptr<Instrument> make_mavlink(const config::PortSettings& settings);
 
 }  // namespace navcal::instruments

@@ -80,6 +80,7 @@ void PortStream::on_frame(const protocols::Frame& frame) {
     case Verdict::used: break;
     case Verdict::begins: epoch_start_ns_ = place_.start_ns; break;
     case Verdict::ignored: statistics_.unused.add(frame.id); break;
+    case Verdict::foreign: statistics_.unused.add(protocols::FrameId("other systems")); break;
     case Verdict::out_of_range: ++statistics_.out_of_range; break;
   }
 }
@@ -117,7 +118,11 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
     // An epoch may have begun before what else came of the same port.
     const std::int64_t tick_ns = measurement.of_epoch ? std::max(observed_ns, tick_ns_) : observed_ns;
     tick_ns_ = tick_ns;
-    const auto outcome = clock_.update(
+    const double std_s = 1e-9 * static_cast<double>(latency_std_ns_);
+    auto& clock = measurement.clock == 0
+                      ? clock_
+                      : others_.try_emplace(measurement.clock, nominal_rate_Hz_, std_s).first->second;
+    const auto outcome = clock.update(
         {tick_ns, measurement.sequence, place_.backlog, measurement.device_time_ns, measurement.paces});
     if (outcome.news) tell_news(*outcome.news);
     repeated_ = measurement.paces && outcome.repeated;

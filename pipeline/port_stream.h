@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -51,6 +52,7 @@ class PortStream : private instruments::Receiver {
   instruments::Mounting mounting_;
   instruments::PressureGate pressures_;
   instruments::FrameClock clock_;
+  std::map<std::uint8_t, instruments::FrameClock> others_;  ///< by Measurement::clock
   GpsTimeWatch gps_time_;
   const StandardErrors& errors_;
   UtcMapping& mapping_;

@@ -39,6 +39,12 @@ inline constexpr Delivery kEverything{.heading = true,
                                       .bottom_velocity = true,
                                       .water_velocity = true};
 
+inline constexpr Delivery kOfAutopilot = [] {
+  Delivery delivery = kEverything;
+  delivery.shaft = delivery.bottom_velocity = delivery.water_velocity = false;
+  return delivery;
+}();
+
 /// The tables of options that a port of this device has: [port.NAME.units], [port.NAME.channels], [port.NAME.fix].
 struct OptionTables {
   bool units = false;
@@ -197,6 +203,13 @@ constexpr DeviceType device_row(Protocol protocol) {
               .baud = 9600,
               .latency_std_s = 0.050,
               .delivers = kEverything,
+              .delivers_always = false};
+    case Protocol::mavlink:
+      // The sensors behind an autopilot, most often through the network. It stamps as it sends.
+      return {.name = "mavlink",
+              .baud = 4'000'000,
+              .latency_std_s = 0.002,
+              .delivers = kOfAutopilot,
               .delivers_always = false};
   }
   return {};

@@ -65,7 +65,8 @@ enum class Protocol : std::uint8_t {
   samples,
   paroscientific,
   keller,
-  described
+  described,
+  mavlink
 };
 
 /// The name in the device's row: "tcm2", "imu-card", "ubx", ... (docs/cli.md, ICD section 5).

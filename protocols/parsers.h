@@ -11,6 +11,7 @@
 #include "protocols/gps_stream.h"
 #include "protocols/imu_card.h"
 #include "protocols/keller.h"
+#include "protocols/mavlink.h"
 #include "protocols/mip.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"
@@ -70,6 +71,8 @@ template <>
 struct ScannersOf<Protocol::keller> : Scanners<keller::Scanner> {};
 template <>
 struct ScannersOf<Protocol::described> : Scanners<described::Scanner> {};
+template <>
+struct ScannersOf<Protocol::mavlink> : Scanners<mavlink::Scanner> {};
 
 template <class Rows>
 struct PortParsers;

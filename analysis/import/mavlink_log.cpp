@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -66,19 +65,13 @@ LineWriter line_of(const S& sample) {
 }
 
 std::string_view port_of(const MavlinkReading& reading, bool is_output) {
-  const auto* const compass = std::get_if<instruments::CompassSample>(&reading.value);
-  const std::array<PortKind, 10> kinds{
-      compass != nullptr && compass->field_body_uT ? PortKind::compass : PortKind::attitude,
-      PortKind::imu,
-      PortKind::gps,
-      PortKind::gps,
-      PortKind::motor,
-      PortKind::altimeter,
-      PortKind::battery,
-      PortKind::dvl,
-      PortKind::baro,
-      is_output ? PortKind::motor : PortKind::sensors};
-  return port_name(kinds.at(reading.value.index()), is_output ? 0 : reading.instance);
+  using enum PortKind;
+  // In the order of Value.
+  constexpr std::array kKinds{attitude, imu, gps, gps, motor, altimeter, battery, dvl, baro, sensors};
+  const auto* const field = std::get_if<instruments::CompassSample>(&reading.value);
+  if (is_output) return port_name(motor, 0);
+  return port_name(field != nullptr && field->field_body_uT ? compass : kKinds.at(reading.value.index()),
+                   reading.instance);
 }
 
 std::string servo_name(const MavlinkReading& output) { return fmt::format("servo{}_raw", output.instance); }

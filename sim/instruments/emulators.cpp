@@ -67,9 +67,12 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::paroscientific, make<ParoscientificEmulator>},
     {Protocol::keller, make<KellerEmulator>},
     {Protocol::described, nullptr},
+    {Protocol::mavlink, nullptr},
 });
 
 }  // namespace
+
+bool has_emulator(Protocol protocol) { return kEmulatorMakers[protocol] != nullptr; }
 
 std::unique_ptr<Device> make_emulator(Protocol protocol, const EmulatorOptions& options, const Motion& motion) {
   EmulatorOptions complete = options;

@@ -21,6 +21,9 @@ struct EmulatorOptions {
   SeaFloor floor{};        ///< below Doppler logs
 };
 
+/// Not so for a described device, of which only its file knows what it measures, and for an autopilot.
+[[nodiscard]] bool has_emulator(protocols::Protocol protocol);
+
 /// A device that speaks `protocol`, as it is delivered. `motion` must outlive it.
 [[nodiscard]] std::unique_ptr<Device> make_emulator(protocols::Protocol protocol, const EmulatorOptions& options,
                                                     const Motion& motion);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "protocols/imu_card.h"
+#include "protocols/mavlink.h"
 #include "protocols/motor_card.h"
 #include "protocols/samples_line.h"
 #include "protocols/tcm2.h"
@@ -107,6 +108,16 @@ inline Buffer random_frame<samples_line::Scanner>(Random& random) {
   std::string line = random_samples_line(random);
   if (chance(random)) line.insert(line.size() - 1, "\r");
   return {line.begin(), line.end()};
+}
+
+template <>
+inline Buffer random_frame<mavlink::Scanner>(Random& random) {
+  constexpr std::array<std::uint32_t, 5> kIds{0, 27, 30, 132, 11038};
+  Buffer payload(1 + below(random, 60));
+  for (auto& byte : payload) byte = chance(random) ? 0xFD : static_cast<std::uint8_t>(random());
+  Buffer frame = mavlink::encode(kIds[below(random, kIds.size())], {1, 1, 7}, payload);
+  if (below(random, 4) == 0) frame[8] = 0x70;  // a message that is not known
+  return frame;
 }
 
 }  // namespace navcal::protocols::test

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "config/load.h"
+#include "protocols/mavlink.h"
+#include "tests/instruments/collector.h"
+#include "tests/instruments/dialogue.h"
+
+namespace navcal::instruments {
+namespace {
+
+namespace mavlink = protocols::mavlink;
+using Verdict = Instrument::Verdict;
+
+/// A payload, number by number.
+struct Fields {
+  std::vector<std::uint8_t> bytes;
+  template <class T>
+  Fields& put(T value) {
+    bytes.resize(bytes.size() + sizeof value);
+    protocols::put_le(bytes.data() + bytes.size() - sizeof value, value);
+    return *this;
+  }
+};
+
+config::PortSettings port() { return config::default_port("rov", protocols::Protocol::mavlink, 4'000'000); }
+
+struct Vehicle : testing::Test {
+  config::PortSettings settings = port();
+  std::unique_ptr<Instrument> instrument = make_instrument(settings);
+  Collector collector{*instrument};
+
+  Verdict send(std::uint32_t id, const Fields& fields, std::uint8_t system = 1, std::uint8_t component = 1) {
+    collector.feed<mavlink::Parser>(mavlink::encode(id, {system, component, 0}, fields.bytes));
+    return collector.verdicts.back();
+  }
+  Verdict heartbeat(std::uint8_t system = 1, std::uint8_t component = 1, std::uint8_t autopilot = 3) {
+    return send(0, Fields{}.put(std::uint32_t{0}).put(std::uint8_t{12}).put(autopilot), system, component);
+  }
+  Verdict raw_imu(std::uint64_t time_us, std::int16_t field = 200) {
+    return send(27, Fields{}.put(time_us).put(std::uint64_t{1}).put(std::uint32_t{0}).put(field));
+  }
+  Verdict pressure(std::uint32_t id, std::uint32_t time_ms = 1000, std::uint8_t system = 1,
+                   std::uint8_t component = 1) {
+    return send(id, Fields{}.put(time_ms).put(1350.0F).put(0.0F).put(std::int16_t{1250}), system, component);
+  }
+  Verdict attitude(std::uint32_t time_ms) {
+    return send(30, Fields{}.put(time_ms).put(0.125F).put(-0.25F).put(1.5F));
+  }
+  Verdict servo(std::uint32_t time_us) {
+    return send(36, Fields{}.put(time_us).put(std::uint16_t{1500}).put(std::uint16_t{65535}));
+  }
+  std::optional<std::int64_t> newest_ns() const { return collector.measurements.back().device_time_ns; }
+};
+
+TEST_F(Vehicle, OnlyTheAutopilotOfTheVehicleIsRead) {
+  EXPECT_EQ(pressure(137), Verdict::ignored) << "no heartbeat yet";
+  EXPECT_EQ(heartbeat(255, 190, 8), Verdict::ignored);
+  EXPECT_EQ(heartbeat(1, 100, 8), Verdict::ignored) << "a camera";
+  EXPECT_EQ(heartbeat(), Verdict::ignored);
+  EXPECT_EQ(pressure(137), Verdict::used);
+  EXPECT_EQ(pressure(137, 1000, 9), Verdict::foreign);
+  EXPECT_EQ(pressure(137, 1000, 1, 100), Verdict::ignored);
+  for (int i = 0; i < 5; ++i) heartbeat(9);
+  heartbeat();
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(heartbeat(9), Verdict::foreign);
+  EXPECT_EQ(pressure(137), Verdict::used) << "two vehicles: the first stays";
+  heartbeat(9);
+  EXPECT_EQ(pressure(137, 1000, 9), Verdict::used) << "it has another number now";
+}
+
+TEST_F(Vehicle, TheConfiguredSensorsAreTaken) {
+  heartbeat();
+  EXPECT_EQ(pressure(29), Verdict::ignored) << "inside the hull";
+  EXPECT_EQ(pressure(137), Verdict::used);
+  settings.pressure_sensor = 1;
+  const auto other = make_instrument(settings);
+  Collector of_other{*other};
+  of_other.feed<mavlink::Parser>(mavlink::encode(0, {1, 1, 0}, Fields{}.put(std::uint64_t{3} << 40).bytes));
+  of_other.feed<mavlink::Parser>(mavlink::encode(
+      29, {1, 1, 0}, Fields{}.put(std::uint32_t{1}).put(1013.25F).put(0.0F).put(std::int16_t{1}).bytes));
+  ASSERT_EQ(of_other.all<DepthSample>().size(), 1U);
+  EXPECT_NEAR(*of_other.all<DepthSample>()[0].pressure_Pa, 101'325, 0.01);
+}
+
+TEST_F(Vehicle, TheFieldHasTheTiltOfTheAttitudeWhileThatIsNew) {
+  heartbeat();
+  attitude(1000);
+  raw_imu(1'050'000, 200);
+  raw_imu(1'200'000, 210);
+  const auto compass = collector.all<CompassSample>();
+  ASSERT_EQ(compass.size(), 3U);
+  EXPECT_FALSE(compass[0].heading_rad) << "of the autopilot's estimate the tilt alone";
+  EXPECT_EQ(compass[0].pitch_rad, -0.25);
+  EXPECT_EQ(compass[1].roll_rad, 0.125);
+  EXPECT_NEAR((*compass[1].field_body_uT)[0], 20, 1e-12);
+  EXPECT_FALSE(compass[2].roll_rad);
+  ASSERT_EQ(collector.all<ScalarSample>().size(), 1U);
+  EXPECT_EQ(collector.all<ScalarSample>()[0].quantity.view(), "autopilot_heading");
+  EXPECT_EQ(collector.all<ScalarSample>()[0].value, 1.5);
+}
+
+TEST_F(Vehicle, CountersOfThirtyTwoBitsGoOn) {
+  heartbeat();
+  EXPECT_EQ(servo(100), Verdict::used);
+  EXPECT_FALSE(newest_ns()) << "its upper half is not known yet";
+  raw_imu((std::uint64_t{1} << 32) - 10'000);
+  servo(5'000);
+  EXPECT_EQ(newest_ns(), ((std::int64_t{1} << 32) + 5'000) * 1000);
+  attitude(0xFFFFFFF0);
+  const std::int64_t before_ns = *newest_ns();
+  attitude(16);
+  EXPECT_EQ(*newest_ns() - before_ns, 32'000'000);
+}
+
+TEST_F(Vehicle, ARestartBringsASmallerTime) {
+  heartbeat();
+  attitude(4'000'000);
+  attitude(5'000);
+  EXPECT_EQ(newest_ns(), 5'000'000'000);
+  servo(5'010'000);
+  EXPECT_EQ(newest_ns(), 5'010'000'000);
+}
+
+TEST_F(Vehicle, AnotherComponentHasAClockOfItsOwn) {
+  heartbeat();
+  attitude(1000);
+  const auto distance = Fields{}
+                            .put(std::uint32_t{77'000})
+                            .put(std::uint16_t{30})
+                            .put(std::uint16_t{5000})
+                            .put(std::uint16_t{1234})
+                            .put(std::uint16_t{0})
+                            .put(std::uint8_t{25})
+                            .put(std::uint8_t{255});
+  EXPECT_EQ(send(132, distance, 1, 194), Verdict::used);
+  EXPECT_EQ(collector.measurements.back().clock, 194);
+  EXPECT_EQ(newest_ns(), 77'000'000'000);
+  EXPECT_NEAR(collector.all<AltimeterSample>().at(0).altitude_m, 12.34, 1e-12);
+  EXPECT_EQ(send(132, distance, 1, 1), Verdict::ignored) << "the autopilot tells it again";
+}
+
+/// An autopilot that accepts what it can.
+struct FakeAutopilot {
+  bool has_high_resolution = true, is_deaf = false;
+  std::vector<std::uint32_t> asked{};
+  int heartbeats = 0;
+
+  void operator()(test::Dialogue& dialogue, const std::string& command) {
+    const auto found =
+        mavlink::find_message({reinterpret_cast<const std::uint8_t*>(command.data()), command.size()});
+    ASSERT_EQ(found.verdict, mavlink::Found::Verdict::frame);
+    EXPECT_EQ(found.message.component, 197);
+    if (found.message.id == 0) ++heartbeats;
+    if (found.message.id != 76) return;
+    const mavlink::Payload payload(found.message.payload);
+    EXPECT_EQ(payload.at<std::uint16_t>(28), 511);
+    asked.push_back(static_cast<std::uint32_t>(payload.at<float>(0)));
+    const std::uint8_t result = asked.back() == 105 && !has_high_resolution ? 3 : 0;
+    if (!is_deaf) say(dialogue, 77, Fields{}.put(std::uint16_t{511}).put(result));
+  }
+  static void say(test::Dialogue& dialogue, std::uint32_t id, const Fields& fields) {
+    const auto frame = mavlink::encode(id, {1, 1, 0}, fields.bytes);
+    dialogue.answer(mavlink::message_of(id)->name, {frame.begin(), frame.end()});
+  }
+};
+
+struct MavlinkDialogue : testing::Test {
+  FakeAutopilot autopilot;
+  test::Dialogue dialogue{make_start_up(port()),
+                          [this](test::Dialogue& running, const std::string& text) { autopilot(running, text); }};
+  void heartbeat() {
+    FakeAutopilot::say(dialogue, 0, Fields{}.put(std::uint32_t{0}).put(std::uint8_t{12}).put(std::uint8_t{3}));
+  }
+  /// Seconds of an autopilot that has run for `boot_s` at first.
+  void live(int seconds, std::uint32_t boot_s) {
+    for (int i = 0; i < seconds; ++i) {
+      heartbeat();
+      FakeAutopilot::say(dialogue, 30, Fields{}.put(1000 * (boot_s + static_cast<std::uint32_t>(i))).put(0.5F));
+      dialogue.run_for(base::kSecond_ns);
+    }
+  }
+};
+
+TEST_F(MavlinkDialogue, WaitsForAnAutopilotAndAsksForItsMessages) {
+  dialogue.begin();
+  dialogue.run_for(5 * base::kSecond_ns);
+  EXPECT_TRUE(dialogue.sent.empty());
+  live(10, 100);
+  EXPECT_EQ(autopilot.asked, (std::vector<std::uint32_t>{105, 36, 30, 147, 24, 137}));
+  EXPECT_GE(autopilot.heartbeats, 8);
+  EXPECT_TRUE(dialogue.start_up().in_service());
+  EXPECT_EQ(dialogue.state(), "running, system 1; its compass is corrected by its own calibration");
+}
+
+TEST_F(MavlinkDialogue, WithoutHighResolutionItAsksForTheOther) {
+  autopilot.has_high_resolution = false;
+  dialogue.begin();
+  live(10, 100);
+  EXPECT_EQ(autopilot.asked, (std::vector<std::uint32_t>{105, 27, 36, 30, 147, 24, 137}));
+}
+
+TEST_F(MavlinkDialogue, AsksAgainAfterARestartAndInTime) {
+  dialogue.begin();
+  live(10, 100);
+  live(5, 2);
+  EXPECT_EQ(autopilot.asked.size(), 12U);
+  live(40, 7);
+  EXPECT_EQ(autopilot.asked.size(), 18U) << "a ground station may have asked for other rates";
+}
+
+TEST_F(MavlinkDialogue, SaysWhatIsNotAnsweredAndThatItIsSilent) {
+  autopilot.is_deaf = true;
+  dialogue.begin();
+  live(25, 100);
+  EXPECT_NE(dialogue.state().find("no answer to: RAW_IMU, SERVO_OUTPUT_RAW"), std::string::npos)
+      << dialogue.state();
+  dialogue.run_for(30 * base::kSecond_ns);
+  EXPECT_NE(dialogue.state().find("waiting for the heartbeat"), std::string::npos) << dialogue.state();
+}
+
+}  // namespace
+}  // namespace navcal::instruments
