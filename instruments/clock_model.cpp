@@ -44,9 +44,9 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-ClockModel::ClockModel(double nominal_period_s, double period_std)
-    : nominal_s_(nominal_period_s), period_prior_s_(period_std * nominal_period_s), period_s_(nominal_period_s),
-      walk_(kFrequencyWalkPrior) {
+ClockModel::ClockModel(double nominal_period_s, double period_std, bool is_sharp)
+    : is_sharp_(is_sharp), nominal_s_(nominal_period_s), period_prior_s_(period_std * nominal_period_s),
+      period_s_(nominal_period_s), walk_(kFrequencyWalkPrior) {
   var_period_ = square(period_prior_s_);
 }
 
@@ -105,8 +105,7 @@ TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns, bo
   }
   const double observed_s = static_cast<double>(observed_ns - origin_ns_) / kNs;
   const double residual_s = observed_s - phase_s_;
-  const bool early =
-      residual_s < -kEarly * std::sqrt(var_phase_ + square(kSoftMeasurement * delays_.soft_edge_s()));
+  const bool early = residual_s < -kEarly * std::sqrt(var_phase_ + square(kSoftMeasurement * soft_edge_s()));
   if (early || !held_up) {
     if (early) take_early(residual_s);
     earliest_s_ = in_block_ == 0 ? residual_s : std::min(earliest_s_, residual_s);
@@ -114,7 +113,7 @@ TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns, bo
     // A frame earlier than the model allows closes the block at once; late ones wait for the block to end.
     if (in_block_ == block_size_ || early) close_block();
   }
-  const double now_s = std::min(phase_s_ + delays_.soft_edge_s(), observed_s);
+  const double now_s = std::min(phase_s_ + soft_edge_s(), observed_s);
   return {origin_ns_ + std::llround(now_s * kNs), std::llround(sigma_s() * kNs)};
 }
 
@@ -122,7 +121,7 @@ TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns, bo
 /// frame is early.
 void ClockModel::take_early(double residual_s) {
   const double allowed_s = std::hypot(kTooEarly * std::sqrt(var_phase_ * std::max(1.0, misfit_)),
-                                      std::max(kTooEarlyDelay * delays_.mean_s(), delays_.soft_edge_s()));
+                                      std::max(kTooEarlyDelay * delays_.mean_s(), soft_edge_s()));
   if (-residual_s < allowed_s) return;
   const double opened = 1 + square(residual_s) / var_phase_;
   var_phase_ *= opened;
@@ -132,8 +131,8 @@ void ClockModel::take_early(double residual_s) {
 
 void ClockModel::close_block() {
   const double expected_s = delays_.mean_s() / in_block_;
-  const double variance = square(doubt() * expected_s) + square(kMeasurementFloor_s) +
-                          square(kSoftMeasurement * delays_.soft_edge_s());
+  const double variance =
+      square(doubt() * expected_s) + square(kMeasurementFloor_s) + square(kSoftMeasurement * soft_edge_s());
   const double residual_s = earliest_s_ - expected_s;
   const double gate_s = kGate * std::sqrt((var_phase_ + variance) * std::max(1.0, misfit_));
   const bool astray = std::abs(residual_s) > std::max(kAstray * delays_.mean_s(), kAstrayLeast * period_s_);
@@ -205,7 +204,7 @@ std::int64_t ClockModel::predict_ns(std::int64_t index) const {
 
 double ClockModel::sigma_s() const {
   const double excess = std::max(1.0, misfit_ / kMisfitIgnored);
-  return std::sqrt(var_phase_ * excess + square(kStampFloor_s) + square(kSoftEdgeShare * delays_.soft_edge_s()) +
+  return std::sqrt(var_phase_ * excess + square(kStampFloor_s) + square(kSoftEdgeShare * soft_edge_s()) +
                    square(least_late_s()));
 }
 

@@ -25,7 +25,8 @@ class ClockModel {
 
   /// `nominal_period_s` > 0, with the relative standard deviation `period_std` until begin() sets a better
   /// estimate.
-  explicit ClockModel(double nominal_period_s, double period_std = kCrystal);
+  /// `is_sharp`: the frames state their times, so that none is early, whatever the shape of the delays.
+  explicit ClockModel(double nominal_period_s, double period_std = kCrystal, bool is_sharp = false);
 
   /// Sets phase and period to those fitted to a run of frames; `index` is the newest of them.
   void begin(std::int64_t index, const PeriodFit& fit);
@@ -64,8 +65,10 @@ class ClockModel {
   void reject_block(double residual_s, double variance_s2);
   void correct(double residual_s, double variance_s2);
   [[nodiscard]] double doubt() const;
+  [[nodiscard]] double soft_edge_s() const { return is_sharp_ ? 0 : delays_.soft_edge_s(); }
   [[nodiscard]] double least_late_s() const;
 
+  bool is_sharp_;
   double nominal_s_;
   double period_prior_s_;
   std::int64_t origin_ns_ = 0;  ///< integer part of the phase, so that doubles keep nanoseconds for days

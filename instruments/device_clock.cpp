@@ -32,7 +32,7 @@ DeviceClock::DeviceClock(double nominal_s)
 
 void DeviceClock::begin(const FrameObservation& frame) {
   if (model_) resets_ += 1 + model_->state().resets;
-  model_.emplace(tick_s_);
+  model_.emplace(tick_s_, ClockModel::kCrystal, true);
   origin_ns_ = newest_ns_ = *frame.device_time_ns;
   newest_seen_ns_ = frame.observed_ns;
   paced_ns_.reset();
