@@ -131,7 +131,7 @@ TEST(Mavlink, EachMessageIsFoundByItsNumber) {
     EXPECT_EQ(info->id, id);
     EXPECT_GT(info->length, 0) << info->name;
   }
-  EXPECT_EQ(known, 88);
+  EXPECT_EQ(known, 89);
 }
 
 /// Messages of a telemetry log by their names, of which each stands behind eight bytes of time.
