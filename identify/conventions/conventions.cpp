@@ -67,9 +67,9 @@ MotionChange all_of(std::vector<MotionChange> changes) {
   };
 }
 
-/// Turns vectors of three channels by a matrix that may depend on the attitude then.
-MotionChange turned(Channel first,
-                    const std::function<Eigen::Vector3d(const Eigen::Vector3d&, const Eigen::Vector3d&)>& by) {
+/// Turns vectors of three channels; `by` also gets the attitude then.
+using VectorTurn = std::function<Eigen::Vector3d(const Eigen::Vector3d& vector, const Eigen::Matrix3d& world)>;
+MotionChange turned(Channel first, const VectorTurn& by) {
   return [=](RecordedMotion& motion) {
     const std::size_t rows = grid_rows(motion);
     std::array<std::vector<double>, 3> angles;
@@ -81,8 +81,8 @@ MotionChange turned(Channel first,
          &z = readings(motion, next_of(first, 2));
     for (std::size_t k = 0; k < std::min({x.size(), y.size(), z.size()}); ++k) {
       const auto row = std::min(static_cast<std::size_t>(std::max(0.0, x[k].time_s) / kGrid_s), rows - 1);
-      const Eigen::Vector3d out =
-          by({x[k].value, y[k].value, z[k].value}, {angles[0][row], angles[1][row], angles[2][row]});
+      const Eigen::Vector3d out = by({x[k].value, y[k].value, z[k].value},
+                                     world_from_body({angles[0][row], angles[1][row], angles[2][row]}));
       x[k].value = out.x();
       y[k].value = out.y();
       z[k].value = out.z();
@@ -138,37 +138,33 @@ std::vector<Suspect> suspects_of_instruments(const RecordedMotion& motion) {
     if (motion.has(triad.first)) add_triad(triad, out);
   out.push_back(
       {"body_frame", "body", "body axes turned from forward, left, up to forward, right, down", to_frd()});
-  for (const auto& [channel, name] :
-       {std::pair{Channel::roll, "roll"}, {Channel::pitch, "pitch"}, {Channel::heading, "heading"}}) {
+  for (const auto& [channel, name] : {std::pair{Channel::roll, "roll"},
+                                      {Channel::pitch, "pitch"},
+                                      {Channel::heading, "heading"},
+                                      {Channel::second_yaw_rate, "second_yaw_rate"},
+                                      {Channel::depth, "depth"},
+                                      {Channel::gauge_depth, "gauge_depth"}})
     out.push_back({"sign", name, fmt::format("{} reversed", name), scaled({channel}, -1)});
-  }
   const auto in_degrees = [&](const std::string& what, const std::vector<Channel>& channels) {
     for (const auto& [unit, factor] : {std::pair{"degrees", 1 / kDegrees}, {"radians", kDegrees}})
       out.push_back(
           {"degrees_for_radians", what, fmt::format("{} taken in {}", what, unit), scaled(channels, factor)});
     out.push_back({"", what, "", scaled(channels, 0)});  // noise agrees better the less of it there is
   };
-  const std::vector<Channel> rates{Channel::rate_x, Channel::rate_y, Channel::rate_z};
   in_degrees("roll, pitch", {Channel::roll, Channel::pitch});
   in_degrees("heading", {Channel::heading});
   in_degrees("roll, pitch, heading", {Channel::roll, Channel::pitch, Channel::heading});
-  in_degrees("rate", rates);
+  in_degrees("rate", {Channel::rate_x, Channel::rate_y, Channel::rate_z});
   out.push_back(
       {"axis_swapped", "roll, pitch", "roll and pitch exchanged", swapped(Channel::roll, Channel::pitch)});
-  out.push_back({"sign", "second_yaw_rate", "the second gyro reversed", scaled({Channel::second_yaw_rate}, -1)});
-  for (const auto& [channel, name] : {std::pair{Channel::depth, "depth"}, {Channel::gauge_depth, "gauge_depth"}})
-    out.push_back({"sign", name, fmt::format("{} positive downwards", name), scaled({channel}, -1)});
-
   const std::vector<Channel> forces{Channel::force_x, Channel::force_y, Channel::force_z};
   out.push_back({"gravity", "force", "the accelerometers' sign reversed", scaled(forces, -1)});
   out.push_back({"gravity", "force", "the specific force in units of g", scaled(forces, base::kGravity_m_s2)});
   for (const double sign : {1.0, -1.0})
     out.push_back({"gravity", "force", "gravity in the specific force again",
-                   turned(Channel::force_x,
-                          [sign](const Eigen::Vector3d& force, const Eigen::Vector3d& euler) -> Eigen::Vector3d {
-                            return sign * force -
-                                   world_from_body(euler).transpose() * Eigen::Vector3d(0, 0, base::kGravity_m_s2);
-                          })});
+                   turned(Channel::force_x, [sign](const auto& force, const auto& world) -> Eigen::Vector3d {
+                     return sign * force - base::kGravity_m_s2 * world.row(2).transpose();
+                   })});
 
   const MotionChange places = swapped(Channel::north, Channel::east);
   const MotionChange velocities = swapped(Channel::north_velocity, Channel::east_velocity);
@@ -181,23 +177,18 @@ std::vector<Suspect> suspects_of_instruments(const RecordedMotion& motion) {
   out.push_back({"north_east", "position, velocity, heading",
                  "north and east exchanged, and the heading from north", all_of({places, velocities, headings})});
 
-  const auto doppler =
-      [&](std::string what, std::string words,
-          const std::function<Eigen::Vector3d(const Eigen::Vector3d&, const Eigen::Vector3d&)>& by) {
-        out.push_back({"dvl_frame", std::move(what), std::move(words),
-                       all_of({turned(Channel::bottom_x, by), turned(Channel::water_x, by)})});
-      };
-  doppler("dvl", "the Doppler log's velocity turned from north, east, down into the body",
-          [](const Eigen::Vector3d& v, const Eigen::Vector3d& euler) -> Eigen::Vector3d {
-            return world_from_body(euler).transpose() * v;
-          });
-  doppler("dvl", "the Doppler log's velocity turned from east, north, up into the body",
-          [](const Eigen::Vector3d& v, const Eigen::Vector3d& euler) -> Eigen::Vector3d {
-            return world_from_body(euler).transpose() * Eigen::Vector3d(v.y(), v.x(), -v.z());
-          });
+  const auto doppler = [&](std::string words, const VectorTurn& by) {
+    out.push_back({"dvl_frame", "dvl", "the Doppler log's velocity turned " + std::move(words),
+                   all_of({turned(Channel::bottom_x, by), turned(Channel::water_x, by)})});
+  };
+  doppler("from north, east, down into the body",
+          [](const auto& v, const auto& world) -> Eigen::Vector3d { return world.transpose() * v; });
+  doppler("from east, north, up into the body", [](const auto& v, const auto& world) -> Eigen::Vector3d {
+    return world.transpose() * Eigen::Vector3d(v.y(), v.x(), -v.z());
+  });
   for (const double angle_deg : {45.0, -45.0, 90.0, -90.0, 180.0})
-    doppler("dvl", fmt::format("the Doppler log turned by {:.0f} degrees", angle_deg),
-            [angle_deg](const Eigen::Vector3d& v, const Eigen::Vector3d&) -> Eigen::Vector3d {
+    doppler(fmt::format("by {:.0f} degrees", angle_deg),
+            [angle_deg](const auto& v, const auto&) -> Eigen::Vector3d {
               return Eigen::AngleAxisd(angle_deg / kDegrees, Eigen::Vector3d::UnitZ()) * v;
             });
 
@@ -218,50 +209,44 @@ std::vector<Suspect> suspects_of_actuators(const config::Layout& layout) {
   std::vector<Suspect> out;
   const sim::ActuatorValues neutral = sim::ActuatorValues::neutral(layout);
   using Numbers = sim::ActuatorNumbers sim::ActuatorValues::*;
-  const auto scale = [&](std::string name, std::string what, std::string words, Numbers part,
-                         std::vector<std::size_t> of, double factor) {
+  const auto change = [&](std::string name, std::string what, std::string words, ActuatorChange actuators,
+                          double log_prior = 0) {
     out.push_back({std::move(name), std::move(what), std::move(words), [](RecordedMotion&) {},
-                   [=](sim::ActuatorValues& values) {
-                     for (const std::size_t i : of) {
-                       const double rest = (neutral.*part)[i];
-                       (values.*part)[i] = rest + factor * ((values.*part)[i] - rest);
-                     }
-                   }});
+                   std::move(actuators), log_prior});
   };
-  const auto add = [&](std::string_view kind, Numbers part) {
-    const std::size_t n = (neutral.*part).size();
-    std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < n; ++i) {
-      all.push_back(i);
-      const std::string one = fmt::format("{}.{}", kind, i + 1);
-      scale("actuator_reversed", one, one + " reversed", part, {i}, -1);
-      // A fault of the part, which is no convention, must not pass for one.
-      scale("", one, one + " dead", part, {i}, 0);
-      for (std::size_t j = i + 1; j < n; ++j) {
-        const std::string other = fmt::format("{}.{}", kind, j + 1);
-        out.push_back({"actuator_order", one + ", " + other, fmt::format("{} and {} exchanged", one, other),
-                       [](RecordedMotion&) {},
-                       [=](sim::ActuatorValues& values) { std::swap((values.*part)[i], (values.*part)[j]); },
-                       -std::log(static_cast<double>(n * (n - 1) / 2))});
+  /// Of the parts from `first` up to before `end`, about neutral.
+  const auto scaled_parts = [&](Numbers part, std::size_t first, std::size_t end, double factor) {
+    return [=](sim::ActuatorValues& values) {
+      for (std::size_t i = first; i < end; ++i) {
+        const double rest = (neutral.*part)[i];
+        (values.*part)[i] = rest + factor * ((values.*part)[i] - rest);
       }
-    }
-    if (n < 2) return;
-    scale("actuator_reversed", std::string(kind), fmt::format("all of {} reversed", kind), part, all, -1);
-    out.push_back(
-        {"actuator_order", std::string(kind), fmt::format("{} in the opposite order", kind),
-         [](RecordedMotion&) {},
-         [=](sim::ActuatorValues& values) { std::reverse((values.*part).begin(), (values.*part).end()); }});
+    };
   };
-  add("thruster", &sim::ActuatorValues::thrusters);
-  add("surface", &sim::ActuatorValues::surfaces_rad);
-  std::vector<std::size_t> surfaces;
-  for (std::size_t i = 0; i < neutral.surfaces_rad.size(); ++i) surfaces.push_back(i);
-  if (!surfaces.empty()) {
-    scale("degrees_for_radians", "surface", "the surfaces' angles taken as degrees",
-          &sim::ActuatorValues::surfaces_rad, surfaces, 1 / kDegrees);
-    scale("degrees_for_radians", "surface", "the surfaces' angles taken as radians",
-          &sim::ActuatorValues::surfaces_rad, surfaces, kDegrees);
+  for (const auto& [kind, part] : {std::pair<std::string, Numbers>{"thruster", &sim::ActuatorValues::thrusters},
+                                   {"surface", &sim::ActuatorValues::surfaces_rad}}) {
+    const std::size_t n = (neutral.*part).size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string one = fmt::format("{}.{}", kind, i + 1);
+      change("actuator_reversed", one, one + " reversed", scaled_parts(part, i, i + 1, -1));
+      // A fault of the part, which is no convention, must not pass for one.
+      change("", one, "", scaled_parts(part, i, i + 1, 0));
+      for (std::size_t j = i + 1; j < n; ++j)
+        change(
+            "actuator_order", fmt::format("{}, {}.{}", one, kind, j + 1),
+            fmt::format("{} and {}.{} exchanged", one, kind, j + 1),
+            [part = part, i, j](auto& values) { std::swap((values.*part)[i], (values.*part)[j]); },
+            -std::log(static_cast<double>(n * (n - 1) / 2)));
+    }
+    if (n < 2) continue;
+    change("actuator_reversed", kind, fmt::format("all of {} reversed", kind), scaled_parts(part, 0, n, -1));
+    change("actuator_order", kind, fmt::format("{} in the opposite order", kind),
+           [part = part](auto& values) { std::reverse((values.*part).begin(), (values.*part).end()); });
   }
+  const auto surfaces = &sim::ActuatorValues::surfaces_rad;
+  for (const auto& [unit, factor] : {std::pair{"degrees", 1 / kDegrees}, {"radians", kDegrees}})
+    change("degrees_for_radians", "surface", fmt::format("the surfaces' angles taken in {}", unit),
+           scaled_parts(surfaces, 0, neutral.surfaces_rad.size(), factor));
   return out;
 }
 
