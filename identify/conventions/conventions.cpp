@@ -28,11 +28,13 @@ constexpr double kMended = 0.3;     ///< what is left of a residual's square whe
 constexpr double kLongest_s = 600;  ///< of a recording: more tells no more
 constexpr double kHour_s = 3600, kQuarter_s = 900;
 
+constexpr auto kNothing = [](sim::ActuatorValues&) {};
+
 /// An error of conventions, and what undoes it.
 struct Suspect {
   std::string name, what, words;  ///< "with ..., they agree"
   MotionChange motion = [](RecordedMotion&) {};
-  ActuatorChange actuators = [](sim::ActuatorValues&) {};
+  ActuatorChange actuators = kNothing;
   double log_prior = 0;  ///< beside the others
 };
 
@@ -119,9 +121,9 @@ void add_triad(const Triad& triad, std::vector<Suspect>& out) {
   }
   const std::string name(triad.name), words(triad.words);
   if (triad.first != Channel::force_x)
-    out.push_back({"sign", name, words + " reversed", scaled({axis(0), axis(1), axis(2)}, -1)});
+    out.push_back({"sign", name, words + " reversed", scaled({axis(0), axis(1), axis(2)}, -1), kNothing, -kUsual});
   out.push_back({"body_frame", name, words + " turned from forward, left, up to forward, right, down",
-                 scaled({axis(1), axis(2)}, -1)});
+                 scaled({axis(1), axis(2)}, -1), kNothing, -kUsual});
 }
 
 MotionChange to_frd() {
