@@ -22,7 +22,6 @@ constexpr double kModelStep_s = kGrid_s / kModelSteps;
 constexpr std::ptrdiff_t kSlopeSteps = 3;  ///< steps of the grid before and behind, for a derivative
 constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};  ///< steps of the grid
 constexpr double kSteered = 3;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The body a step later at this velocity, whose derivative is given.
 sim::Body moved(const sim::Body& body, const sim::Vector6& acceleration, double step_s) {
@@ -59,64 +58,21 @@ Track::Track(const config::Layout& layout, const RecordedMotion& motion) {
   if (!inputs.missing().empty()) throw std::invalid_argument(motion.name + ": " + inputs.missing().front());
   if (!motion.has(Channel::heading)) throw std::invalid_argument(motion.name + ": no heading is recorded");
   actuators = inputs.trajectory(layout);
-  const std::size_t rows = grid_rows(motion);
-  const auto grid = [&](Channel channel) { return on_grid(motion, channel, rows); };
-  const auto or_zero = [&](Channel channel) {
-    return motion.has(channel) ? grid(channel) : std::vector<double>(rows, 0.0);
-  };
-  const auto roll = or_zero(Channel::roll), pitch = or_zero(Channel::pitch), heading = grid(Channel::heading);
-  const Channel depths = motion.has(Channel::gauge_depth) ? Channel::gauge_depth : Channel::depth;
-  has_depth = motion.has(depths);
-  const auto depth = or_zero(depths);
-  by_fixes = motion.has(Channel::north) && motion.has(Channel::east);
-  std::vector<double> north, east;
-  if (by_fixes) {
-    north = grid(Channel::north);
-    east = grid(Channel::east);
-  }
-  const Channel doppler = motion.has(Channel::water_x) ? Channel::water_x : Channel::bottom_x;
-  const bool has_doppler = motion.has(doppler), has_course = motion.has(Channel::north_velocity);
-  if (!has_doppler && !has_course && !by_fixes)
+  const GriddedMotion grid(motion, Channel::water_x);
+  if (!grid.has_velocity)
     throw std::invalid_argument(motion.name + ": no Doppler log and no fixes: nothing measures the velocity");
-  std::array<std::vector<double>, 3> speeds, rates;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = [&](Channel first) { return static_cast<Channel>(static_cast<std::size_t>(first) + i); };
-    if (has_doppler) {
-      speeds[i] = or_zero(axis(doppler));
-    } else if (has_course) {
-      speeds[i] = i < 2 ? grid(axis(Channel::north_velocity)) : std::vector<double>(rows, 0.0);
-    }
-    if (motion.has(axis(Channel::rate_x))) rates[i] = grid(axis(Channel::rate_x));
-  }
-  const auto slope = [&](const std::vector<double>& of, std::size_t k, bool is_angle = false) {
-    const std::size_t d = kSlopeSteps;
-    if (k < d || k + d >= rows) return kNone;
-    const double change = of[k + d] - of[k - d];
-    return (is_angle ? base::wrapped(change) : change) / (2 * kSlopeSteps * kGrid_s);
-  };
+  const Channel depth = motion.has(Channel::gauge_depth) ? Channel::gauge_depth : Channel::depth;
+  has_depth = motion.has(depth);
+  by_fixes = motion.has(Channel::north) && motion.has(Channel::east);
   Eigen::Vector2d reckoned = Eigen::Vector2d::Zero();
-  for (std::size_t k = 0; k < rows; ++k) {
+  for (std::size_t k = 0; k < grid.rows; ++k) {
     sim::Body body;
-    body.euler_rad = {roll[k], pitch[k], heading[k]};
-    const Eigen::Matrix3d world = world_from_body(body.euler_rad);
-    Eigen::Vector3d v;
-    if (has_doppler) {
-      v = {speeds[0][k], speeds[1][k], speeds[2][k]};
-    } else if (has_course) {
-      v = world.transpose() * Eigen::Vector3d(speeds[0][k], speeds[1][k], slope(depth, k));
-    } else {
-      v = world.transpose() * Eigen::Vector3d(slope(north, k), slope(east, k), slope(depth, k));
-    }
-    const std::array<const std::vector<double>*, 3> angles{&roll, &pitch, &heading};
-    Eigen::Vector3d omega;
-    for (std::size_t i = 0; i < 3; ++i)
-      omega[static_cast<Eigen::Index>(i)] = rates[i].empty() ? slope(*angles[i], k, true) : rates[i][k];
-    body.velocity << v, omega;
-    body.position_m = {reckoned.x(), reckoned.y(), depth[k]};
-    if (by_fixes) body.position_m.head<2>() = Eigen::Vector2d(north[k], east[k]);
+    body.euler_rad = grid.euler(k);
+    body.velocity << grid.velocity[k], grid.rates[k];
+    body.position_m = {reckoned.x(), reckoned.y(), grid.or_zero(depth, k)};
+    if (by_fixes) body.position_m.head<2>() << grid.at(Channel::north, k), grid.at(Channel::east, k);
     // A silence begins a new track; no prediction reaches over it.
-    const Eigen::Vector3d over = world * v;
-    reckoned += kGrid_s * over.head<2>();
+    reckoned += kGrid_s * (world_from_body(body.euler_rad) * grid.velocity[k]).head<2>();
     if (!reckoned.allFinite()) reckoned.setZero();
     bodies.push_back(body);
   }

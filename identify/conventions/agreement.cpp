@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -43,75 +42,12 @@ constexpr int kModelSteps = 2;       ///< in one of the grid
 constexpr double kWindow_s = kWindow * kGrid_s;
 constexpr double kSteepestPitch_rad = 1.3;
 constexpr double kMostTurn_rad = 0.7;  ///< declination and deviation of a compass are less
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Steps of the grid in which actuators tell: 1 s for a vehicle of half a metre, by Froude's law for others.
 std::size_t response_of(const config::Layout& layout) {
   constexpr double kLeast_s = 1, kMost_s = 10, kLength_m = 0.5;
   const double time_s = std::clamp(std::sqrt(layout.body.size_m[0] / kLength_m), kLeast_s, kMost_s);
   return static_cast<std::size_t>(std::lround(time_s / kGrid_s));
-}
-
-/// One motion on the grid: NaN where it is not measured.
-struct Grid {
-  std::size_t rows = 0;
-  std::array<std::vector<double>, kChannels> values;
-  std::vector<Eigen::Vector3d> velocity;  ///< of the body's origin; without a Doppler log by the fixes
-  std::vector<Eigen::Vector3d> rates;     ///< by gyros, else by the attitude
-  bool has_tilt = false, has_gyros = false, has_doppler = false, by_bottom = false;
-
-  Grid(const RecordedMotion& motion);
-  [[nodiscard]] double at(Channel channel, std::size_t k) const {
-    const auto& of = values[static_cast<std::size_t>(channel)];
-    return of.empty() ? kUnknown : of[k];
-  }
-  [[nodiscard]] double or_zero(Channel channel, std::size_t k) const {
-    return values[static_cast<std::size_t>(channel)].empty() ? 0 : at(channel, k);
-  }
-  [[nodiscard]] Eigen::Vector3d three(Channel first, std::size_t k) const {
-    const auto i = static_cast<std::size_t>(first);
-    return {at(first, k), at(static_cast<Channel>(i + 1), k), at(static_cast<Channel>(i + 2), k)};
-  }
-  [[nodiscard]] Eigen::Vector3d euler(std::size_t k) const {
-    return {or_zero(Channel::roll, k), or_zero(Channel::pitch, k), or_zero(Channel::heading, k)};
-  }
-  [[nodiscard]] double change(Channel channel, std::size_t from, std::size_t to) const {
-    const double all = at(channel, to) - at(channel, from);
-    return describe(channel).is_angle ? base::wrapped(all) : all;
-  }
-};
-
-Grid::Grid(const RecordedMotion& motion) : rows(grid_rows(motion)) {
-  for (std::size_t c = 0; c < kChannels; ++c)
-    if (!motion.channels[c].empty()) values[c] = on_grid(motion, static_cast<Channel>(c), rows);
-  has_tilt = motion.has(Channel::roll) && motion.has(Channel::pitch);
-  has_gyros = motion.has(Channel::rate_z);
-  by_bottom = motion.has(Channel::bottom_x);
-  has_doppler = by_bottom || motion.has(Channel::water_x);
-  const Channel doppler = by_bottom ? Channel::bottom_x : Channel::water_x;
-  for (std::size_t k = 0; k < rows; ++k) {
-    const std::size_t before = k > 0 ? k - 1 : k, after = std::min(k + 1, rows - 1);
-    const auto slope = [&](Channel channel) {
-      return change(channel, before, after) / (kGrid_s * static_cast<double>(after - before));
-    };
-    Eigen::Vector3d rate = three(Channel::rate_x, k);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto axis = static_cast<Eigen::Index>(i);
-      const auto angle = static_cast<Channel>(static_cast<std::size_t>(Channel::roll) + i);
-      if (values[i].empty()) rate[axis] = motion.has(angle) ? slope(angle) : 0;
-    }
-    rates.push_back(rate);
-    Eigen::Vector3d speed = Eigen::Vector3d::Constant(kUnknown);
-    if (has_doppler) {
-      speed = three(doppler, k);
-      if (values[static_cast<std::size_t>(doppler) + 2].empty()) speed.z() = 0;
-      speed -= rate.cross(motion.doppler_place_m);
-    } else if (motion.has(Channel::north_velocity)) {
-      speed = world_from_body(euler(k)).transpose() *
-              Eigen::Vector3d(at(Channel::north_velocity, k), at(Channel::east_velocity, k), 0);
-    }
-    velocity.push_back(speed);
-  }
 }
 
 /// Residuals of one relation, window by window.
@@ -142,7 +78,7 @@ class Gathered {
 /// All relations of one motion.
 class Relations {
  public:
-  Relations(const RecordedMotion& motion) : motion_(motion), grid_(motion) {}
+  Relations(const RecordedMotion& motion) : motion_(motion), grid_(motion, Channel::bottom_x) {}
 
   void kinematics() {
     for (std::size_t k = 0; k + kWindow < grid_.rows; k += kWindow) window(k, k + kWindow);
@@ -172,7 +108,7 @@ class Relations {
   void respond_all();
 
   const RecordedMotion& motion_;
-  Grid grid_;
+  GriddedMotion grid_;
   std::array<Gathered, kRelations> all_;
   std::vector<std::complex<double>> ways_, reckoned_;  ///< north + i east, of the windows
   std::size_t response_ = 0;                           ///< steps of the grid
