@@ -41,51 +41,46 @@ std::span<const MavlinkReading> MavlinkDecoder::read(const mavlink::Message& mes
   component_ = message.component;
   const Payload payload(message.payload);
   if (message.id == 0) read_heartbeat(message, payload);
-  if (!vehicle_ || message.system != *vehicle_) return {};
-  if (message.id == 132) {
-    read_echo(message, payload);
-  } else if (component_ == mavlink::kAutopilot) {
-    switch (message.id) {
-      case 1: {
-        PowerSample power;
-        power.voltage_V = unless(kNoNumber, payload.at<std::uint16_t>(14), 1e-3);
-        power.current_A = unless(std::int16_t{-1}, payload.at<std::int16_t>(16), 1e-2);
-        if (!has_battery_status_ && power.voltage_V) put(power);
-        break;
-      }
-      case 24: read_gps(payload); break;
-      case 26: read_integers(payload, 4, 22, 0); break;
-      case 27: read_integers(payload, 8, 27, 0); break;
-      case 116: read_integers(payload, 4, 22, 1); break;
-      case 129: read_integers(payload, 4, 22, 2); break;
-      case 105: read_floats(payload); break;
-      case 29:
-      case 137:
-      case 143:
-        set_boot_ms(payload);
-        take_pressure(payload.at<float>(4), payload.at<std::int16_t>(12) * 0.01,
-                      message.id == 29    ? 0
-                      : message.id == 137 ? 1
-                                          : 2);
-        break;
-      case 30: {
-        const auto angles_rad = payload.vector<float>(4, 1);
-        if (!all_finite(angles_rad)) break;
-        CompassSample attitude;
-        attitude.roll_rad = angles_rad[0];
-        attitude.pitch_rad = angles_rad[1];
-        attitude.heading_rad = base::as_heading(angles_rad[2]);
-        attitude.heading_is_true = true;
-        set_boot_ms(payload);
-        put(attitude);
-        break;
-      }
-      case 36: read_outputs(payload); break;
-      case 147: read_battery(payload); break;
-      case 173:
-      case 11038: read_echo(message, payload); break;
-      default: break;
+  if (message.system != vehicle_ || (component_ != mavlink::kAutopilot && message.id != 132)) return {};
+  switch (message.id) {
+    case 1: {
+      PowerSample power;
+      power.voltage_V = unless(kNoNumber, payload.at<std::uint16_t>(14), 1e-3);
+      power.current_A = unless(std::int16_t{-1}, payload.at<std::int16_t>(16), 1e-2);
+      if (!has_battery_status_ && power.voltage_V) put(power);
+      break;
     }
+    case 24: read_gps(payload); break;
+    case 26: read_integers(payload, 4, 22, 0); break;
+    case 27: read_integers(payload, 8, 27, 0); break;
+    case 116: read_integers(payload, 4, 22, 1); break;
+    case 129: read_integers(payload, 4, 22, 2); break;
+    case 105: read_floats(payload); break;
+    case 29:
+    case 137:
+    case 143:
+      set_boot_ms(payload);
+      take_pressure(payload.at<float>(4), payload.at<std::int16_t>(12) * 0.01,
+                    int{message.id != 29} + int{message.id == 143});
+      break;
+    case 30: {
+      const auto angles_rad = payload.vector<float>(4, 1);
+      if (!all_finite(angles_rad)) break;
+      CompassSample attitude;
+      attitude.roll_rad = angles_rad[0];
+      attitude.pitch_rad = angles_rad[1];
+      attitude.heading_rad = base::as_heading(angles_rad[2]);
+      attitude.heading_is_true = true;
+      set_boot_ms(payload);
+      put(attitude);
+      break;
+    }
+    case 36: read_outputs(payload); break;
+    case 147: read_battery(payload); break;
+    case 132:
+    case 173:
+    case 11038: read_echo(message, payload); break;
+    default: break;
   }
   return readings_;
 }

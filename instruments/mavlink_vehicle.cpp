@@ -18,15 +18,14 @@ class MavlinkVehicle final : public Instrument {
 
   Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
     const auto message = protocols::mavlink::find_message(frame.bytes).message;
-    bool is_used = false;
+    auto verdict = Verdict::ignored;
     for (MavlinkReading reading : decoder_.read(message)) {
       if (!is_wanted(reading)) continue;
       if (auto* const compass = std::get_if<CompassSample>(&reading.value)) complete(*compass, reading, receiver);
       hand_over_reading(reading, message.component, receiver);
-      is_used = true;
+      verdict = Verdict::used;
     }
-    if (is_used) return Verdict::used;
-    return decoder_.vehicle() && *decoder_.vehicle() != message.system ? Verdict::foreign : Verdict::ignored;
+    return message.system != decoder_.vehicle().value_or(message.system) ? Verdict::foreign : verdict;
   }
 
  private:
@@ -55,12 +54,9 @@ class MavlinkVehicle final : public Instrument {
   }
 
   static void hand_over_reading(const MavlinkReading& reading, std::uint8_t component, Receiver& receiver) {
-    Measurement measurement;
-    measurement.value = reading.value;
-    measurement.device_time_ns = reading.device_time_ns;
-    measurement.clock = component == protocols::mavlink::kAutopilot ? 0 : component;
-    measurement.paces = false;
-    receiver.on_measurement(measurement);
+    const std::uint8_t clock = component == protocols::mavlink::kAutopilot ? 0 : component;
+    receiver.on_measurement(
+        {.value = reading.value, .device_time_ns = reading.device_time_ns, .paces = false, .clock = clock});
   }
 
   int unit_, barometer_;  ///< instances

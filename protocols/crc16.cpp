@@ -31,13 +31,14 @@ constexpr auto kTables = [] {
   return tables;
 }();
 
-/// The same for the polynomial 8005, bits in reverse order.
+/// The same with the bits in reverse order, those of the polynomial too.
+template <unsigned Polynomial>
 constexpr auto kReflectedTables = [] {
   std::array<Table, kSlices> tables{};
   for (unsigned byte = 0; byte < 256; ++byte) {
     unsigned remainder = byte;
     for (int bit = 0; bit < 8; ++bit)
-      remainder = (remainder & 1U) != 0 ? remainder >> 1 ^ 0xA001U : remainder >> 1;
+      remainder = (remainder & 1U) != 0 ? remainder >> 1 ^ Polynomial : remainder >> 1;
     tables[0][byte] = static_cast<std::uint16_t>(remainder);
   }
   for (std::size_t k = 1; k < kSlices; ++k) {
@@ -64,26 +65,32 @@ std::uint16_t continued(unsigned crc, Bytes bytes) {
   return static_cast<std::uint16_t>(crc);
 }
 
-}  // namespace
-
-std::uint16_t crc16_ccitt_false(Bytes bytes) { return continued(0xFFFF, bytes); }
-
-std::uint16_t crc16_xmodem(Bytes bytes) { return continued(0, bytes); }
-
-std::uint16_t crc16_modbus(Bytes bytes) {
+template <unsigned Polynomial>
+std::uint16_t reflected(Bytes bytes) {
+  constexpr auto& kOfPolynomial = kReflectedTables<Polynomial>;
   unsigned crc = 0xFFFF;
   const std::uint8_t* p = bytes.data();
   for (std::size_t left = bytes.size(); left > 0;) {
-    // Frames are shorter than a slice, as a rule: the look-ups of the rest do not wait for one another either.
+    // Most frames are shorter than a few slices: the look-ups of the rest do not wait for one another either.
     const std::size_t slice = std::min(left, kSlices);
-    unsigned next = kReflectedTables[slice - 1][(crc & 0xFFU) ^ p[0]];
-    next ^= slice > 1 ? kReflectedTables[slice - 2][(crc >> 8) ^ p[1]] : crc >> 8;
-    for (std::size_t i = 2; i < slice; ++i) next ^= kReflectedTables[slice - 1 - i][p[i]];
+    unsigned next = kOfPolynomial[slice - 1][(crc & 0xFFU) ^ p[0]];
+    next ^= slice > 1 ? kOfPolynomial[slice - 2][(crc >> 8) ^ p[1]] : crc >> 8;
+    for (std::size_t i = 2; i < slice; ++i) next ^= kOfPolynomial[slice - 1 - i][p[i]];
     crc = next;
     p += slice;
     left -= slice;
   }
   return static_cast<std::uint16_t>(crc);
 }
+
+}  // namespace
+
+std::uint16_t crc16_ccitt_false(Bytes bytes) { return continued(0xFFFF, bytes); }
+
+std::uint16_t crc16_xmodem(Bytes bytes) { return continued(0, bytes); }
+
+std::uint16_t crc16_modbus(Bytes bytes) { return reflected<0xA001>(bytes); }
+
+std::uint16_t crc16_mcrf4xx(Bytes bytes) { return reflected<0x8408>(bytes); }
 
 }  // namespace navcal::protocols

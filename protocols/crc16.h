@@ -19,4 +19,7 @@ namespace navcal::protocols {
 /// have ten bytes at most, so one bit at a time is quick enough.
 [[nodiscard]] std::uint16_t crc16_modbus(Bytes bytes);
 
+/// CRC-16/MCRF4XX: polynomial 0x1021 reflected, start 0xFFFF; "123456789" gives 0x6F91. MAVLink uses it.
+[[nodiscard]] std::uint16_t crc16_mcrf4xx(Bytes bytes);
+
 }  // namespace navcal::protocols

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/mavlink.h"
 
+#include "protocols/crc16.h"
+
 namespace navcal::protocols::mavlink {
 namespace {
 
@@ -52,27 +54,17 @@ constexpr auto kMessages = [] {
 }();
 static_assert(kMessages.back().name == "MCU_STATUS" && kMessages.back().length == 9);
 
-std::uint16_t with(std::uint16_t crc, std::uint8_t byte) { return checksum(Bytes(&byte, 1), crc); }
-
-/// The sum of a frame of version 2 as it was before its zeros were cut.
-std::uint16_t untrimmed_sum(Bytes head, Bytes payload, const MessageInfo& info) {
-  std::uint16_t crc = checksum(head.subspan(2), with(0xFFFF, info.length));
-  crc = checksum(payload, crc);
-  for (std::size_t i = payload.size(); i < info.length; ++i) crc = with(crc, 0);
-  return with(crc, info.crc_extra);
+/// The sum of a frame with `info`, of which `frame` are all bytes before its own sum, for a payload of so many
+/// bytes; those that `frame` lacks are zero.
+std::uint16_t sum_of(Bytes frame, std::size_t head, std::size_t length, const MessageInfo& info) {
+  std::array<std::uint8_t, Scanner::kMaxFrameLength> summed{};
+  std::copy(frame.begin() + 1, frame.end(), summed.begin());
+  summed[0] = static_cast<std::uint8_t>(length);
+  summed[head - 1 + length] = info.crc_extra;
+  return crc16_mcrf4xx(Bytes(summed).first(head + length));
 }
 
 }  // namespace
-
-std::uint16_t checksum(Bytes bytes, std::uint16_t before) {
-  unsigned crc = before;
-  for (const std::uint8_t byte : bytes) {
-    unsigned mixed = byte ^ (crc & 0xFFU);
-    mixed ^= mixed << 4 & 0xFFU;
-    crc = ((crc >> 8) ^ (mixed << 8) ^ (mixed << 3) ^ (mixed >> 4)) & 0xFFFFU;
-  }
-  return static_cast<std::uint16_t>(crc);
-}
 
 const MessageInfo* message_of(std::uint32_t id) {
   const auto* const found = std::lower_bound(kMessages.begin(), kMessages.end(), id,
@@ -111,37 +103,29 @@ Found find_message(Bytes bytes) {
   message.payload = bytes.subspan(head, payload);
   if (message.info == nullptr) return {Verdict::frame, message, 0};
   const auto sent = get_le<std::uint16_t>(bytes.data() + head + payload);
-  if (with(checksum(bytes.subspan(1, head - 1 + payload)), message.info->crc_extra) == sent)
-    return {Verdict::frame, message, 0};
+  const Bytes summed = bytes.first(head + payload);
+  if (sum_of(summed, head, payload, *message.info) == sent) return {Verdict::frame, message, 0};
   message.is_untrimmed = is_second && payload < message.info->length &&
-                         untrimmed_sum(bytes.first(head), message.payload, *message.info) == sent;
+                         sum_of(summed, head, message.info->length, *message.info) == sent;
   return {message.is_untrimmed ? Verdict::frame : Verdict::bad_checksum, message, 0};
 }
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
-  const Found found = find_message({first, last});
-  const Message& message = found.message;
-  if (found.verdict == Found::Verdict::incomplete) return Scan::incomplete(found.missing);
-  if (found.verdict == Found::Verdict::bad_checksum) return Scan::bad_checksum();
-  if (found.verdict == Found::Verdict::no_frame) return Scan::not_a_frame();
+  const auto [verdict, message, missing] = find_message({first, last});
+  if (verdict != Scan::Kind::frame) return {verdict, missing, {}};
   if (message.info != nullptr) return Scan::frame(message.length, FrameId(message.info->name));
   return *first == 0xFD ? Scan::frame(message.length, FrameId(message.name())) : Scan::not_a_frame();
 }
 
 std::vector<std::uint8_t> encode(std::uint32_t id, Sender sender, Bytes payload) {
   while (payload.size() > 1 && payload.back() == 0) payload = payload.first(payload.size() - 1);
-  constexpr std::size_t kHead = 10;
-  std::vector<std::uint8_t> frame(kHead + payload.size() + 2);
-  frame[0] = 0xFD;
-  frame[1] = static_cast<std::uint8_t>(payload.size());
-  frame[4] = sender.sequence;
-  frame[5] = sender.system;
-  frame[6] = sender.component;
-  put_le(frame.data() + 7, static_cast<std::uint16_t>(id));
-  frame[9] = static_cast<std::uint8_t>(id >> 16);
-  std::copy(payload.begin(), payload.end(), frame.begin() + kHead);
-  const Bytes summed = Bytes(frame).subspan(1, kHead - 1 + payload.size());
-  put_le(frame.data() + kHead + payload.size(), with(checksum(summed), message_of(id)->crc_extra));
+  const auto length = static_cast<std::uint8_t>(payload.size());
+  std::vector<std::uint8_t> frame{0xFD, length, 0, 0, sender.sequence, sender.system, sender.component};
+  append_le(frame, static_cast<std::uint16_t>(id));
+  frame.push_back(static_cast<std::uint8_t>(id >> 16));
+  const std::size_t head = frame.size();
+  frame.insert(frame.end(), payload.begin(), payload.end());
+  append_le(frame, sum_of(frame, head, length, *message_of(id)));
   return frame;
 }
 

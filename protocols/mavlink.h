@@ -43,8 +43,8 @@ struct Message {
 };
 
 struct Found {
-  enum class Verdict : std::uint8_t { frame, incomplete, bad_checksum, no_frame };
-  Verdict verdict = Verdict::no_frame;
+  using Verdict = Scan::Kind;
+  Verdict verdict = Verdict::not_a_frame;
   Message message{};
   std::size_t missing = 0;  ///< at least, while it is incomplete
 };
@@ -87,8 +87,5 @@ struct Sender {
 };
 /// A frame of version 2 without a signature. `id` must be known.
 [[nodiscard]] std::vector<std::uint8_t> encode(std::uint32_t id, Sender sender, Bytes payload);
-
-/// CRC-16/MCRF4XX, continued from that of the bytes before.
-[[nodiscard]] std::uint16_t checksum(Bytes bytes, std::uint16_t before = 0xFFFF);
 
 }  // namespace navcal::protocols::mavlink

@@ -33,6 +33,7 @@ std::uint64_t time_us_at(std::string_view bytes) {
 
 /// What follows the time at the beginning of `entry`.
 mavlink::Found message_in(std::string_view entry) {
+  if (entry.size() < kTime_bytes) return {mavlink::Found::Verdict::incomplete};
   const std::uint64_t time_us = time_us_at(entry);
   if (time_us < kFirst_us || time_us >= kLast_us) return {};
   const std::string_view rest = entry.substr(kTime_bytes);
@@ -103,10 +104,6 @@ ImportFindings MavlinkFile::read() {
   std::size_t at = 0, told = 0;
   while (at < file_.size()) {
     const std::string_view rest = file_.substr(at);
-    if (rest.size() < kTime_bytes) {
-      findings_.cut_at = at;
-      break;
-    }
     const auto found = message_in(rest);
     using Verdict = mavlink::Found::Verdict;
     if (found.verdict == Verdict::incomplete) {
@@ -118,7 +115,7 @@ ImportFindings MavlinkFile::read() {
       ++at;
       continue;
     }
-    if (found.message.is_untrimmed) ++untrimmed_;
+    untrimmed_ += found.message.is_untrimmed ? 1U : 0U;
     take(found.message, static_cast<std::int64_t>(time_us_at(rest)) * 1000);
     at += kTime_bytes + found.message.length;
     if (at - told >= kProgressBytes) sink_.progress(told = at);
@@ -134,11 +131,9 @@ void MavlinkFile::take(const Message& message, std::int64_t time_ns) {
   constexpr std::uint32_t kSystemTime = 2, kParameter = 22, kOutputs = 36;
   const std::string name = message.name();
   const auto readings = decoder_.read(message);
-  if (message.id == kParameter) {
-    const Payload payload(message.payload);
-    servos_.take(payload.text(8, 16), payload.at<float>(0));
-  }
-  if (message.id == kSystemTime) compare_clocks(Payload(message.payload), time_ns);
+  const Payload payload(message.payload);
+  if (message.id == kParameter) servos_.take(payload.text(8, 16), payload.at<float>(0));
+  if (message.id == kSystemTime) compare_clocks(payload, time_ns);
   ImportedSample sample{name, {}, time_ns};
   const bool is_mapped = message.id == kOutputs && take_mapped(readings, sample);
   for (const MavlinkReading& reading : readings) {
@@ -146,24 +141,19 @@ void MavlinkFile::take(const Message& message, std::int64_t time_ns) {
     const std::string_view port = port_of(reading, message.id == kOutputs);
     sample.continues = port == sample.port;
     sample.port = port;
-    std::visit(
-        [&](const auto& value) {
-          LineWriter line = line_of(value);
-          sink_.sample(sample, line);
-        },
-        reading.value);
+    LineWriter line = std::visit([](const auto& value) { return line_of(value); }, reading.value);
+    sink_.sample(sample, line);
   }
   if (!readings.empty()) return;
-  const bool is_of_another = decoder_.vehicle() && *decoder_.vehicle() != message.system;
+  const bool is_of_another = decoder_.vehicle().value_or(message.system) != message.system;
   sink_.left(is_of_another ? fmt::format("{} (of system {})", name, message.system) : name);
 }
 
 bool MavlinkFile::take_mapped(std::span<const MavlinkReading> outputs, const ImportedSample& sample) {
   const auto read = [&](std::string_view member) -> std::optional<double> {
-    for (const MavlinkReading& output : outputs) {
-      if (servo_name(output) == member) return std::get<instruments::ScalarSample>(output.value).value;
-    }
-    return std::nullopt;
+    const auto found = std::ranges::find(outputs, member, servo_name);
+    if (found == outputs.end()) return std::nullopt;
+    return std::get<instruments::ScalarSample>(found->value).value;
   };
   return channels_.emit(sample.message, read, sample, sink_);
 }
@@ -181,9 +171,7 @@ void MavlinkFile::compare_clocks(const Payload& payload, std::int64_t time_ns) {
 
 }  // namespace
 
-bool is_mavlink_log(std::string_view head) {
-  return head.size() > kTime_bytes && message_in(head).verdict == mavlink::Found::Verdict::frame;
-}
+bool is_mavlink_log(std::string_view head) { return message_in(head).verdict == mavlink::Found::Verdict::frame; }
 
 ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels) {
   return MavlinkFile(file, sink, channels).read();

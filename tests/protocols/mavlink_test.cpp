@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "protocols/crc16.h"
 #include "tests/protocols/stream.h"
 
 namespace navcal::protocols::mavlink {
@@ -48,7 +49,7 @@ Buffer untrimmed() {
   Buffer whole = bytes_of("fd2700000501c2840000");
   for (int i = 0; i < 39; ++i) whole.push_back(i < 17 ? static_cast<std::uint8_t>(i + 1) : 0);
   whole.push_back(85);
-  const std::uint16_t sum = checksum(Bytes(whole).subspan(1));
+  const std::uint16_t sum = crc16_mcrf4xx(Bytes(whole).subspan(1));
   whole.resize(10 + 17);
   whole[1] = 17;
   whole.push_back(static_cast<std::uint8_t>(sum));
@@ -104,7 +105,7 @@ TEST(Mavlink, SignedFramesAreReadAndUnknownFlagsAreNot) {
   with_flag[2] = 1;
   Buffer body(with_flag.begin() + 1, with_flag.end() - 2);
   body.push_back(50);
-  const std::uint16_t sum = checksum(body);
+  const std::uint16_t sum = crc16_mcrf4xx(body);
   with_flag[with_flag.size() - 2] = static_cast<std::uint8_t>(sum);
   with_flag.back() = static_cast<std::uint8_t>(sum >> 8);
   const Buffer signature(13, 0xFD);
@@ -113,7 +114,7 @@ TEST(Mavlink, SignedFramesAreReadAndUnknownFlagsAreNot) {
   EXPECT_TRUE(found.message.is_signed);
   EXPECT_EQ(found.message.length, kHeartbeat.size() + 13);
   with_flag[2] = 2;
-  EXPECT_EQ(find_message(with_flag).verdict, Verdict::no_frame);
+  EXPECT_EQ(find_message(with_flag).verdict, Verdict::not_a_frame);
 }
 
 TEST(Mavlink, AMessageThatIsNotKnownHasItsNumber) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "protocols/mavlink.h"
+#include "protocols/crc16.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
@@ -26,7 +26,7 @@ std::string payload_of(Values... values) {
 }
 
 std::uint16_t sum_of(const std::string& bytes) {
-  return protocols::mavlink::checksum({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  return protocols::crc16_mcrf4xx({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 /// One entry of a telemetry log: time, and a frame of version 1 or 2.
