@@ -11,72 +11,42 @@ namespace {
 constexpr std::size_t kSlices = 8;
 using Table = std::array<std::uint16_t, 256>;
 
-/// kTables[k][b]: what byte b contributes to the remainder when k more bytes follow it. The eight look-ups of a
-/// slice do not wait for one another, as those of the byte-wise method do.
+/// [k][b]: what byte b contributes to the remainder when k more bytes follow it. The eight look-ups of a slice do
+/// not wait for one another, as those of the byte-wise method do. Reflected: with the bits in reverse order, those
+/// of the polynomial too.
+template <unsigned Polynomial, bool IsReflected>
 constexpr auto kTables = [] {
   std::array<Table, kSlices> tables{};
   for (unsigned byte = 0; byte < 256; ++byte) {
-    unsigned remainder = byte << 8;
+    unsigned remainder = IsReflected ? byte : byte << 8;
     for (int bit = 0; bit < 8; ++bit) {
-      remainder = (remainder & 0x8000U) != 0 ? (remainder << 1) ^ 0x1021U : remainder << 1;
+      const bool carries = (remainder & (IsReflected ? 1U : 0x8000U)) != 0;
+      remainder = (IsReflected ? remainder >> 1 : remainder << 1) ^ (carries ? Polynomial : 0);
     }
     tables[0][byte] = static_cast<std::uint16_t>(remainder);
   }
   for (std::size_t k = 1; k < kSlices; ++k) {
     for (std::size_t byte = 0; byte < 256; ++byte) {
-      const unsigned shorter = tables[k - 1][byte];
-      tables[k][byte] = static_cast<std::uint16_t>((shorter << 8) ^ tables[0][shorter >> 8]);
+      const unsigned shorter = tables[k - 1][byte], low = shorter & 0xFFU, high = shorter >> 8;
+      const unsigned rest = IsReflected ? high ^ tables[0][low] : low << 8 ^ tables[0][high];
+      tables[k][byte] = static_cast<std::uint16_t>(rest);
     }
   }
   return tables;
 }();
 
-/// The same with the bits in reverse order, those of the polynomial too.
-template <unsigned Polynomial>
-constexpr auto kReflectedTables = [] {
-  std::array<Table, kSlices> tables{};
-  for (unsigned byte = 0; byte < 256; ++byte) {
-    unsigned remainder = byte;
-    for (int bit = 0; bit < 8; ++bit)
-      remainder = (remainder & 1U) != 0 ? remainder >> 1 ^ Polynomial : remainder >> 1;
-    tables[0][byte] = static_cast<std::uint16_t>(remainder);
-  }
-  for (std::size_t k = 1; k < kSlices; ++k) {
-    for (std::size_t byte = 0; byte < 256; ++byte) {
-      const unsigned shorter = tables[k - 1][byte];
-      tables[k][byte] = static_cast<std::uint16_t>((shorter >> 8) ^ tables[0][shorter & 0xFFU]);
-    }
-  }
-  return tables;
-}();
-
-/// Remainder after `bytes`, from that of the bytes before them.
-std::uint16_t continued(unsigned crc, Bytes bytes) {
-  const std::uint8_t* p = bytes.data();
-  std::size_t left = bytes.size();
-  for (; left >= kSlices; left -= kSlices, p += kSlices) {
-    crc = static_cast<unsigned>(kTables[7][(crc >> 8) ^ p[0]] ^ kTables[6][(crc & 0xFFU) ^ p[1]] ^
-                                kTables[5][p[2]] ^ kTables[4][p[3]] ^ kTables[3][p[4]] ^ kTables[2][p[5]] ^
-                                kTables[1][p[6]] ^ kTables[0][p[7]]);
-  }
-  for (; left > 0; --left, ++p) {
-    crc = ((crc << 8) & 0xFFFFU) ^ kTables[0][(crc >> 8) ^ *p];
-  }
-  return static_cast<std::uint16_t>(crc);
-}
-
-template <unsigned Polynomial>
-std::uint16_t reflected(Bytes bytes) {
-  constexpr auto& kOfPolynomial = kReflectedTables<Polynomial>;
-  unsigned crc = 0xFFFF;
+template <unsigned Polynomial, bool IsReflected>
+std::uint16_t crc16(unsigned crc, Bytes bytes) {
+  constexpr auto& kOfPolynomial = kTables<Polynomial, IsReflected>;
   const std::uint8_t* p = bytes.data();
   for (std::size_t left = bytes.size(); left > 0;) {
-    // Most frames are shorter than a few slices: the look-ups of the rest do not wait for one another either.
+    // Frames may be shorter than a slice: the look-ups of the rest do not wait for one another either.
     const std::size_t slice = std::min(left, kSlices);
-    unsigned next = kOfPolynomial[slice - 1][(crc & 0xFFU) ^ p[0]];
-    next ^= slice > 1 ? kOfPolynomial[slice - 2][(crc >> 8) ^ p[1]] : crc >> 8;
-    for (std::size_t i = 2; i < slice; ++i) next ^= kOfPolynomial[slice - 1 - i][p[i]];
-    crc = next;
+    const unsigned low = crc & 0xFFU, high = crc >> 8;
+    crc = kOfPolynomial[slice - 1][(IsReflected ? low : high) ^ p[0]];
+    const unsigned rest = IsReflected ? high : low;
+    crc ^= slice > 1 ? kOfPolynomial[slice - 2][rest ^ p[1]] : IsReflected ? rest : rest << 8;
+    for (std::size_t i = 2; i < slice; ++i) crc ^= kOfPolynomial[slice - 1 - i][p[i]];
     p += slice;
     left -= slice;
   }
@@ -85,12 +55,12 @@ std::uint16_t reflected(Bytes bytes) {
 
 }  // namespace
 
-std::uint16_t crc16_ccitt_false(Bytes bytes) { return continued(0xFFFF, bytes); }
+std::uint16_t crc16_ccitt_false(Bytes bytes) { return crc16<0x1021, false>(0xFFFF, bytes); }
 
-std::uint16_t crc16_xmodem(Bytes bytes) { return continued(0, bytes); }
+std::uint16_t crc16_xmodem(Bytes bytes) { return crc16<0x1021, false>(0, bytes); }
 
-std::uint16_t crc16_modbus(Bytes bytes) { return reflected<0xA001>(bytes); }
+std::uint16_t crc16_modbus(Bytes bytes) { return crc16<0xA001, true>(0xFFFF, bytes); }
 
-std::uint16_t crc16_mcrf4xx(Bytes bytes) { return reflected<0x8408>(bytes); }
+std::uint16_t crc16_mcrf4xx(Bytes bytes) { return crc16<0x8408, true>(0xFFFF, bytes); }
 
 }  // namespace navcal::protocols
