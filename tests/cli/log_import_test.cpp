@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/import/mavlink_frame.h"
 #include "protocols/checked_line.h"
+#include "protocols/mavlink.h"
 #include "protocols/ubx_navigation.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/record/temporary_folder.h"
@@ -206,15 +206,17 @@ TEST_F(LogImport, SavedUbxIsKnownByItsBytesAlsoBetweenSentences) {
   expect_counts_agree(report, nlohmann::json::parse(run({"info", "--json", to("a.mcap")}).output), 20);
 }
 
-/// A telemetry log with one frame of version 1: SERVO_OUTPUT_RAW with 1500 and 1900 us.
+/// A telemetry log of an autopilot with its heartbeat, and SERVO_OUTPUT_RAW with 1500 and 1900 us.
 std::string telemetry_of_pulses() {
-  constexpr unsigned char kFrame[] = {0x00, 0x06, 0x0A, 0x24, 0x18, 0x1E, 0x40, 0x00, 0xFE, 21,   0x05,
-                                      0x01, 0x01, 36,   5,    0,    0,    0,    0xDC, 0x05, 0x6C, 0x07};
-  std::string log(reinterpret_cast<const char*>(kFrame), sizeof kFrame);
-  log.append(6 * 2 + 1, '\0');
-  const auto sum = analysis::mavlink::checksum(std::string_view(log).substr(9), 222);
-  log += static_cast<char>(sum & 0xFF);
-  log += static_cast<char>(sum >> 8);
+  constexpr std::array<std::uint8_t, 8> kTime{0x00, 0x06, 0x0A, 0x24, 0x18, 0x1E, 0x40, 0x00};
+  constexpr std::array<std::uint8_t, 9> kHeartbeat{0, 0, 0, 0, 12, 3, 0, 4, 3};
+  constexpr std::array<std::uint8_t, 8> kPulses{5, 0, 0, 0, 0xDC, 0x05, 0x6C, 0x07};
+  std::string log;
+  for (const auto& frame : {protocols::mavlink::encode(0, {1, 1, 0}, kHeartbeat),
+                            protocols::mavlink::encode(36, {1, 1, 1}, kPulses)}) {
+    log.append(kTime.begin(), kTime.end());
+    log.append(frame.begin(), frame.end());
+  }
   return log;
 }
 
