@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_history.h"
 
-#include <algorithm>
 #include <variant>
 
 namespace navcal::analysis {

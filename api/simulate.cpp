@@ -3,7 +3,6 @@
 #include <navcal/simulate.h>
 
 #include <cmath>
-#include <initializer_list>
 
 #include "analysis/simulate_effects.h"
 #include "analysis/simulate_motion.h"

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
-#include <string>
 
 namespace navcal::base {
 namespace {

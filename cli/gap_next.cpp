@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/gap_next.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>

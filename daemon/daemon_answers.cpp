@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the daemon answers on its two sockets.
-#include <fmt/format.h>
-
-#include <iterator>
 
 #include "daemon/daemon.h"
 #include "daemon/gpsd_replies.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The battery, and the alarms that follow from estimates.
-#include <fmt/format.h>
 
 #include "daemon/daemon.h"
 #include "record/json/battery_json.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/nmea_feed.h"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>

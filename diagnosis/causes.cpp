@@ -2,7 +2,6 @@
 #include "diagnosis/causes.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <stdexcept>
 #include <string_view>

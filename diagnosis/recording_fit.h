@@ -5,8 +5,6 @@
 #include <array>
 #include <functional>
 #include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "diagnosis/causes.h"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <string_view>
 #include <system_error>
 
 #include "fleet/whole_writing.h"

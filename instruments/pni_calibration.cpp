@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <utility>
 
 #include "instruments/compass_calibration.h"
 #include "protocols/trax.h"

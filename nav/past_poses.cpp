@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nav/past_poses.h"
 
-#include <algorithm>
-
 #include "base/angles.h"
 
 namespace navcal::nav {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "config/settings.h"
 #include "nav/altitude_filter.h"

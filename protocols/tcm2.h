@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <string_view>
 
 #include "base/angles.h"
 #include "report/calibrate_figures.h"

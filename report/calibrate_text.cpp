@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/calibrate_text.h"
 
-#include <algorithm>
-#include <iterator>
 #include <string_view>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <string>
-#include <string_view>
 
 #include "report/gap_figures.h"
 

@@ -2,7 +2,6 @@
 #include "report/gap_text.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #include "report/noise_text.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "report/append_format.h"
 #include "report/noise_words.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "base/angles.h"
 #include "report/thesis_figures.h"

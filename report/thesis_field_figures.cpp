@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "base/angles.h"
 #include "calib/thesis/distorted_field.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "report/append_format.h"
 #include "report/validation_report.h"
 #include "report/validation_words.h"

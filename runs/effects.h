@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 

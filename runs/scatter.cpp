@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runs/scatter.h"
 
-#include <algorithm>
-
 namespace navcal::runs {
 namespace {
 

@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 #include <string.h>
 
-#include <cerrno>
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include "base/interruptible.h"
 #include "validation/child.h"

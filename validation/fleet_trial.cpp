@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "base/parallel.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 
 #include "validation/missions.h"

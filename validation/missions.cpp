@@ -2,7 +2,6 @@
 #include "validation/missions.h"
 
 #include <utility>
-#include <vector>
 
 #include "validation/reference/instrument.h"
 

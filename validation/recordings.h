@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "record/capture/capture_writer.h"
 #include "validation/cases.h"

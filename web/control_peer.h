@@ -3,7 +3,6 @@
 
 #include <boost/asio/any_io_executor.hpp>
 #include <filesystem>
-#include <memory>
 
 #include "web/access.h"
 #include "web/peer.h"

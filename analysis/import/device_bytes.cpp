@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 
 #include "analysis/import/import_log.h"
 #include "analysis/import/mapped_file.h"

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string_view>
 
 #include "analysis/import/import_formats.h"
 #include "analysis/import/import_report.h"

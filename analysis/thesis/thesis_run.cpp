@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "analysis/thesis/thesis_parts.h"
 
 namespace navcal::analysis {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-
 #include "base/reference_instruments.h"
 #include "calib/archive.h"
 #include "calib/delay/delay.h"

@@ -2,7 +2,6 @@
 #include "calib/magnetometer/ellipse_gyro.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

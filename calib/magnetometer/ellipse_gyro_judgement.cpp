@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "base/angles.h"
 #include "calib/magnetometer/ellipse_gyro.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "calib/calibrator.h"
 #include "calib/correction.h"

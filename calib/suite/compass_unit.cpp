@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Deviation B..E of the compass against the turns of the gyro.
-#include <array>
 #include <numbers>
 
 #include "calib/suite/calibrator_unit.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hard and soft iron from the measured field itself.
-#include <array>
 #include <cmath>
 
 #include "calib/suite/calibrator_unit.h"

@@ -2,7 +2,6 @@
 #include "calib/swing/swing.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <string>
 

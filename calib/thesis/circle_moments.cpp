@@ -2,7 +2,6 @@
 #include "calib/thesis/circle_moments.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

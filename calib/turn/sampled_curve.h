@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "calib/archive.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include "calib/archive.h"
 #include "calib/judgement.h"
 #include "calib/turn/turn_filter_bank.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 
 #include "fleet/causes/answer_report.h"
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 // Each course is a linear model of the values with their stated errors: a constant; a constant and a slope; two
 // constants. They are compared by the Bayesian information criterion (Schwarz 1978), which for a step counts

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <string_view>
 #include <vector>
 
 #include "devices/instrument_model.h"

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
 #include "gap/inference/effect_subset.h"
 #include "gap/inference/library.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <stdexcept>
 
 #include "gap/thresholds.h"

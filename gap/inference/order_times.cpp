@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "base/parallel.h"
 #include "gap/actuators/fin_orders.h"

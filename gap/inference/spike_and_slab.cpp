@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "gap/inference/evidence.h"
 #include "gap/thresholds.h"

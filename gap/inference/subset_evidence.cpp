@@ -2,7 +2,6 @@
 #include "gap/inference/subset_evidence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/reference_instruments.h"
 #include "gap/replay/replay_run.h"

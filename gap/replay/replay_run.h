@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "gap/actuators/linked_actuators.h"
 #include "gap/replay/predicted_instruments.h"

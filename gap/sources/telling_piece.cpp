@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/sources/telling_piece.h"
 
-#include <algorithm>
-
 namespace navcal::gap {
 
 double loudest_piece_s(const Eigen::VectorXd& residual, const Layout& layout,

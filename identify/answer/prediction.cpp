@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identify/answer/prediction.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>

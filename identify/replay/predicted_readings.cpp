@@ -2,7 +2,6 @@
 #include "identify/replay/predicted_readings.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"

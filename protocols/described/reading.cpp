@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/described/reading.h"
 
-#include <bit>
 #include <cmath>
 
 #include "protocols/described/text.h"

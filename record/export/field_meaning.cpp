@@ -2,7 +2,6 @@
 #include "record/export/field_meaning.h"
 
 #include <array>
-#include <type_traits>
 #include <vector>
 
 #include "instruments/sample_fields.h"

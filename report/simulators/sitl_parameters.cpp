@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <span>
 
 #include "base/angles.h"
 #include "base/reference_instruments.h"

@@ -2,7 +2,6 @@
 #include "sim/instruments/oncore.h"
 
 #include <cmath>
-#include <utility>
 
 #include "base/durations.h"
 #include "protocols/oncore_aid.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/compass.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "protocols/tcm2_word.h"
 

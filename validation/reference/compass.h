@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include "validation/reference/instrument.h"
 #include "validation/reference/lag.h"
 #include "validation/reference/waters.h"

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "protocols/oncore_encode.h"
 
