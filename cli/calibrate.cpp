@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,9 +6,7 @@
 #include <vector>
 
 #include "analysis/calibrate_run.h"
-#include "analysis/output.h"
 #include "analysis/progress.h"
-#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -42,7 +38,7 @@ void calibrate(const CalibrateCommandOptions& options) {
     run.play(file, [&progress](double share) { progress.show(share); });
   }
   const calib::Report report = run.finish();
-  for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
+  tell_remarks("navcal", run.remarks());
 
   std::string answer;
   if (options.json) {
@@ -51,9 +47,7 @@ void calibrate(const CalibrateCommandOptions& options) {
   } else {
     answer = report::calibrate_text(report, run.duration_s());
   }
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(base::printable(answer, "\n"));
-  output.flush();
+  print_answer(answer);
   if (history) {
     const report::PageSource source{options.files, options.config, run.settings(), run.duration_s(),
                                     run.remarks()};

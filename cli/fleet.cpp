@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
@@ -41,8 +39,7 @@ void make_fleet_plan(fleet::PlanRequest request) {
     analysis::Progress progress("fleet plan", analysis::Progress::Answer::at_the_end);
     summary = fleet::make_plan(request, [&](std::string_view what, double done) { progress.show(what, done); });
   }
-  for (const std::string& remark : summary.remarks)
-    fmt::print(stderr, "navcal fleet: {}\n", base::printable(remark));
+  tell_remarks("navcal fleet", summary.remarks);
   fmt::print(
       "{} recordings in {} ({} read now); plan {}: {} recordings, {} tasks ({} new), {} of them null banks\n",
       summary.files, request.recordings.string(), summary.read, request.plan.string(), summary.recordings,
@@ -122,17 +119,13 @@ void tell_causes(const CausesOptions& options) {
   const fleet::FleetStory story{missions, answer, calibrations, read.remarks};
   if (!options.page.empty()) write_result(options.page, fleet::fleet_page(story));
   if (options.json != "-" && !options.json.empty()) write_result(options.json, fleet::fleet_json(story));
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(base::printable(options.json == "-" ? fleet::fleet_json(story) : fleet::fleet_text(story), "\n"));
-  output.flush();
+  print_answer(options.json == "-" ? fleet::fleet_json(story) : fleet::fleet_text(story));
 }
 
 void list_fleet(const std::string& folder, bool json) {
   const fleet::Plan plan = fleet::load_plan(folder);
   const fleet::ResultStore results(plan.folder);
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(base::printable(json ? fleet::list_json(plan, results) : fleet::list_text(plan, results), "\n"));
-  output.flush();
+  print_answer(json ? fleet::list_json(plan, results) : fleet::list_text(plan, results));
 }
 
 void add_fleet_plan(CLI::App& parent) {

@@ -16,6 +16,7 @@
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "cli/result_file.h"
 #include "fleet/local_run.h"
 #include "fleet/plan_lock.h"
 #include "fleet/slurm.h"
@@ -85,7 +86,7 @@ void submit_to_slurm(const SubmitOptions& options, const fleet::Plan& plan) {
   } catch (const fleet::SlurmError& error) {
     throw analysis::Failure(analysis::Exit::failed, std::string("Slurm: ") + error.what());
   }
-  for (const std::string& remark : remarks) fmt::print(stderr, "navcal fleet: {}\n", base::printable(remark));
+  tell_remarks("navcal fleet", remarks);
   conclude(plan, base::Interruptible::interrupted()
                      ? fmt::format("what is in Slurm's queue goes on. The same command follows it; \"squeue --me "
                                    "--format=%A,%j | grep {}\" lists it for scancel",

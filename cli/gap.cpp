@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -10,9 +9,7 @@
 #include <vector>
 
 #include "analysis/chosen_vehicle.h"
-#include "analysis/output.h"
 #include "analysis/progress.h"
-#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/gap_export.h"
@@ -85,12 +82,6 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   return gap::diagnose(request, [&](std::string_view what, double done) { progress.show(what, done); });
 }
 
-void write_to_output(std::string_view text) {
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(base::printable(text, "\n"));
-  output.flush();
-}
-
 /// Nominal model that the exports correct: with the instruments of --config, else of the recording itself.
 report::CorrectedModel corrected_model(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
   const auto& source = options.source;
@@ -115,9 +106,9 @@ void write_models(const gap::Diagnosis& diagnosis, const GapCommandOptions& opti
 void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
   const auto& source = options.source;
   if (!options.report.empty()) write_result(options.report, report::gap_page(diagnosis, source));
-  if (options.json == "-") return write_to_output(report::gap_json(diagnosis) + '\n');
+  if (options.json == "-") return print_answer(report::gap_json(diagnosis) + '\n');
   if (!options.json.empty()) write_result(options.json, report::gap_json(diagnosis) + '\n');
-  write_to_output(report::gap_text(diagnosis, source));
+  print_answer(report::gap_text(diagnosis, source));
 }
 
 gap::Diagnosis saved_diagnosis(const std::string& file) { return report::gap_from_json(read_file(file), file); }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/gap_next.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -12,10 +10,8 @@
 #include <vector>
 
 #include "analysis/failure.h"
-#include "analysis/output.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
-#include "base/printable.h"
 #include "cli/exit_statuses.h"
 #include "cli/gap_request.h"
 #include "cli/result_file.h"
@@ -70,9 +66,7 @@ void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
   if (!options.report.empty()) write_result(options.report, report::next_mission_page(next, source));
   const std::string json = options.json.empty() ? "" : report::next_mission_json(next, source) + '\n';
   if (!options.json.empty() && options.json != "-") write_result(options.json, json);
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(base::printable(options.json == "-" ? json : report::next_mission_text(next, source), "\n"));
-  output.flush();
+  print_answer(options.json == "-" ? json : report::next_mission_text(next, source));
 }
 
 void plan_next(const GapNextOptions& options) {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "analysis/output.h"
 #include "analysis/progress.h"
-#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/recorded_motions.h"
@@ -48,15 +44,12 @@ identify::Identification identification_of(const IdentifyCommandOptions& options
 }
 
 void write_identification(const IdentifyCommandOptions& options, const identify::Identification& found) {
-  for (const auto& warning : found.warnings)
-    std::fprintf(stderr, "navcal: %s\n", base::printable(warning).c_str());
+  tell_remarks("navcal", found.warnings);
   write_result(options.output, config::layout_file(found.layout));
   if (!options.report.empty()) write_result(options.report, report::identify_page(found));
   const bool json_only = options.json == "-";
   if (!json_only && !options.json.empty()) write_result(options.json, report::identify_json(found));
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(base::printable(json_only ? report::identify_json(found) : report::identify_text(found), "\n"));
-  output.flush();
+  print_answer(json_only ? report::identify_json(found) : report::identify_text(found));
 }
 
 void run_identify(const IdentifyCommandOptions& options) {

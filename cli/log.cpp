@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -26,7 +25,7 @@ namespace {
 void show_info(const std::string& file, bool json) {
   const auto info =
       run_log_job([&](const record::Progress& progress) { return record::read_info(file, progress); });
-  if (!json) tell_remarks(info.remarks);
+  if (!json) tell_remarks("navcal log", info.remarks);
   std::fputs((json ? to_json(info) : to_text(info)).c_str(), stdout);
 }
 
@@ -49,7 +48,7 @@ void export_log(const std::string& file, Exporter exporter, const std::string& t
   }
   const auto exported =
       run_log_job([&](const record::Progress& progress) { return exporter(file, to, progress); });
-  tell_remarks(exported.remarks);
+  tell_remarks("navcal log", exported.remarks);
   for (const auto& path : exported.files) fmt::print("{}\n", base::printable(path.string()));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/log_import.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -41,9 +43,9 @@ void import_file(const ImportArguments& arguments) {
   if (!device && !is_foreign)
     device = run_log_job([&](const record::Progress&) { return analysis::device_of(arguments.file); });
   if (!device && !is_foreign) {
-    return tell_remarks(run_log_job([&](const record::Progress& progress) {
-      return analysis::import_capture(arguments.file, arguments.to, progress);
-    }));
+    return tell_remarks("navcal log", run_log_job([&](const record::Progress& progress) {
+                          return analysis::import_capture(arguments.file, arguments.to, progress);
+                        }));
   }
   if (std::filesystem::exists(arguments.to))
     throw analysis::Failure(analysis::Exit::failed, arguments.to + ": there is a file already");
@@ -51,7 +53,7 @@ void import_file(const ImportArguments& arguments) {
     return device ? analysis::import_bytes(arguments.file, *device, arguments.baud, arguments.to, progress)
                   : analysis::import_log(arguments.file, arguments.to, arguments.options, progress);
   });
-  if (!arguments.json) tell_remarks(report.remarks);
+  if (!arguments.json) tell_remarks("navcal log", report.remarks);
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
 }
 

@@ -38,8 +38,7 @@ void show_surfacings(const SurfacingsOptions& options) {
     expect_no_overwriting({options.files.begin(), options.files.end()}, {options.page});
   }
   const analysis::SurfacingRun run = run_surfacings(options);
-  for (const auto& remark : run.remarks())
-    std::fprintf(stderr, "navcal log: %s\n", base::printable(remark).c_str());
+  tell_remarks("navcal log", run.remarks());
   if (!options.page.empty()) {
     write_result(options.page, report::surfacings_page(run.surfacings(), options.files, run.settings()));
   }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,8 +7,6 @@
 
 #include "analysis/noise/noise_run.h"
 #include "analysis/noise/noise_settings.h"
-#include "analysis/output.h"
-#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -57,10 +53,8 @@ void find_noise(const NoiseCommandOptions& options) {
   const auto settings = options.config.empty() ? record::Recording::open(options.request.file)->settings()
                                                : config::load(options.config);
   const analysis::NoiseReport report = analysis::noise_of(options.request, settings);
-  for (const auto& remark : report.remarks) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(base::printable(options.json ? report::noise_json(report) : report::noise_text(report), "\n"));
-  output.flush();
+  tell_remarks("navcal", report.remarks);
+  print_answer(options.json ? report::noise_json(report) : report::noise_text(report));
   if (!options.page.empty()) write_result(options.page, report::noise_page(report));
   if (!options.write.empty()) write_configuration(options, report, settings);
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/recorded_motions.h"
 
-#include <cstdio>
-
-#include "base/printable.h"
+#include "cli/result_file.h"
 
 namespace navcal::cli {
 
@@ -14,8 +12,7 @@ std::vector<identify::RecordedMotion> load_motions(const std::vector<std::string
   for (const std::string& file : files) {
     motions.push_back(identify::load_motion(
         file, [&](double done) { progress.show("reading", done); }, stated));
-    for (const auto& remark : motions.back().remarks)
-      std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
+    tell_remarks("navcal", motions.back().remarks);
   }
   return motions;
 }

@@ -5,10 +5,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
+#include "analysis/output.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "record/whole_file.h"
 
@@ -73,6 +76,16 @@ void write_result(const fs::path& file, std::string_view content) {
   record::WholeFile whole(file);
   whole.write(content);
   whole.commit();
+}
+
+void print_answer(std::string_view text) {
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(base::printable(text, "\n"));
+  output.flush();
+}
+
+void tell_remarks(std::string_view command, const std::vector<std::string>& remarks) {
+  for (const auto& remark : remarks) fmt::print(stderr, "{}: {}\n", command, base::printable(remark));
 }
 
 std::string read_file(const fs::path& file) {

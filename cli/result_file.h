@@ -25,6 +25,12 @@ void expect_not_ending(const std::filesystem::path& output, std::string_view end
 /// Whole or not at all. Throws std::system_error.
 void write_result(const std::filesystem::path& file, std::string_view content);
 
+/// Text on standard output, printable. Throws Failure when it cannot be written.
+void print_answer(std::string_view text);
+
+/// Lines on standard error, each with the name of the command before it.
+void tell_remarks(std::string_view command, const std::vector<std::string>& remarks);
+
 /// Content of a file. Throws std::system_error, which names the file.
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "analysis/output.h"
 #include "analysis/progress.h"
 #include "analysis/thesis/thesis_run.h"
 #include "cli/commands.h"
@@ -35,9 +32,7 @@ void expect_thesis_outputs(const ThesisCommandOptions& options) {
 
 void write_thesis_json(const std::string& file, const std::string& json) {
   if (file != "-") return write_result(file, json);
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(json);
-  output.flush();
+  print_answer(json);
 }
 
 void recompute_thesis(ThesisCommandOptions options) {

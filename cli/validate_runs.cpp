@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -11,9 +9,7 @@
 #include <system_error>
 #include <vector>
 
-#include "analysis/output.h"
 #include "analysis/run_folder.h"
-#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "report/run_diagnosis_json.h"
@@ -136,19 +132,14 @@ void answer_runs(const ValidateRunsArguments& arguments) {
   const auto* const removed = removed_effect(arguments.removed);
   const RunPools pools = arguments.pools.empty() ? RunPools{} : read_run_pools(arguments.pools);
   const runs::NominalVehicle vehicle = runs::identify(analysis::read_run_folder(arguments.nominal));
-  for (const auto& remark : vehicle.remarks) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
+  tell_remarks("navcal", vehicle.remarks);
   if (!arguments.sessions.empty()) write_result(arguments.sessions, sessions_json(vehicle));
   RunAnswers answers(vehicle, removed);
   answers.add_runs(analysis::read_run_folder(arguments.runs), arguments.runs);
   answers.add_pools(pools, arguments.pools);
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  if (to_output) {
-    output.append(base::printable(answers.lines(), "\n"));
-  } else {
-    write_result(arguments.json, answers.lines());
-    output.append(base::printable(answers.summary(), "\n"));
-  }
-  output.flush();
+  if (to_output) return print_answer(answers.lines());
+  write_result(arguments.json, answers.lines());
+  print_answer(answers.summary());
 }
 
 void validate_runs(const ValidateRunsArguments& arguments) {

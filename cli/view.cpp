@@ -16,6 +16,7 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/log_run.h"
+#include "cli/result_file.h"
 #include "record/recording.h"
 #include "web/viewer.h"
 
@@ -64,7 +65,7 @@ std::filesystem::path log_of(const std::string& file, const std::filesystem::pat
     remarks = run_log_job(
         [&](const record::Progress& progress) { return analysis::import_capture(file, log, progress); });
   }
-  for (const auto& remark : remarks) fmt::print(stderr, "navcal view: {}\n", base::printable(remark));
+  tell_remarks("navcal view", remarks);
   return log;
 }
 

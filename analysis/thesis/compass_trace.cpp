@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "analysis/thesis/thesis_parts.h"
 #include "base/angles.h"
 
