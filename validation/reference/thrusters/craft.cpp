@@ -200,19 +200,6 @@ Snapshot Craft::snapshot() const {
   return s;
 }
 
-std::vector<double> Craft::thrusts_N() const {
-  const Flow flow = flow_of(y_);
-  std::vector<double> thrusts;
-  for (std::size_t i = 0; i < rotors_.size(); ++i) {
-    const Vector3 v = flow.velocity_m_s + flow.rate_rad_s.cross(rotors_[i].place_m());
-    const double advance = v.dot(rotors_[i].direction());
-    const double across = (v - advance * rotors_[i].direction()).norm();
-    const std::size_t at = kBody + 2 * i;
-    thrusts.push_back(rotors_[i].push(y_[at], y_[at + 1], 0, advance, across, time_s_).force_N);
-  }
-  return thrusts;
-}
-
 double Craft::energy_J() const {
   const Flow flow = flow_of(y_);
   const Eigen::Quaterniond attitude = attitude_of(y_);

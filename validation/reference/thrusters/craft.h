@@ -41,8 +41,6 @@ class Craft {
   [[nodiscard]] Vector6 momentum() const;
   [[nodiscard]] bool finite() const;
   [[nodiscard]] double time_s() const { return time_s_; }
-  /// Thrust of each rotor along its direction, N.
-  [[nodiscard]] std::vector<double> thrusts_N() const;
 
  private:
   /// Position, quaternion (x, y, z, w), P, H; then s and w of each rotor.
