@@ -171,12 +171,6 @@ class Collection {
 
 }  // namespace
 
-const std::vector<std::string_view>& covariate_families() {
-  static const std::vector<std::string_view> kAll{"constant",    "heading", "rate",    "tilt", "speed", "current",
-                                                  "temperature", "depth",   "command", "time", "step",  "lag"};
-  return kAll;
-}
-
 std::vector<Covariate> covariates_of(const Trajectory10Hz& course) {
   Collection all(course);
   const auto n = static_cast<Eigen::Index>(course.time_s.size());

@@ -22,10 +22,6 @@ struct Covariate {
   Eigen::VectorXd values;
 };
 
-/// Families of covariates: constant, heading, rate, tilt, speed, current, temperature, depth, command, time, step
-/// (time since an order) and lag (a derivative, a low-pass or the direction of a move).
-[[nodiscard]] const std::vector<std::string_view>& covariate_families();
-
 /// Quantities of a course, their derivatives, low-passes and squares, and products of two: the same list for each
 /// course. The course is smoothed over a second, because a covariate must not contain the noise of the residuals
 /// that it explains.
