@@ -3,10 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
 namespace navcal::record {
 
@@ -25,22 +23,5 @@ class ByteSource {
 
 /// Throws std::system_error, which names the file.
 [[nodiscard]] std::unique_ptr<ByteSource> open_file(const std::filesystem::path& file);
-
-/// Bytes that somebody else keeps.
-class MemorySource final : public ByteSource {
- public:
-  explicit MemorySource(std::string_view bytes) : size_(bytes.size()), rest_(bytes) {}
-  std::size_t read(char* to, std::size_t n) override {
-    const std::size_t taken = rest_.size() < n ? rest_.size() : n;
-    if (taken > 0) std::memcpy(to, rest_.data(), taken);
-    rest_.remove_prefix(taken);
-    return taken;
-  }
-  [[nodiscard]] std::uint64_t size() const override { return size_; }
-
- private:
-  std::uint64_t size_;
-  std::string_view rest_;
-};
 
 }  // namespace navcal::record

@@ -6,6 +6,7 @@
 #include "record/capture/capture_reader.h"
 #include "record/capture/capture_writer.h"
 #include "tests/fuzz/target.h"
+#include "tests/record/memory_source.h"
 
 // Whatever the reader accepts, the writer writes so that it reads the same again.
 

@@ -7,6 +7,7 @@
 #include "record/log/log_reader.h"
 #include "record/log/log_recording.h"
 #include "tests/fuzz/target.h"
+#include "tests/record/memory_source.h"
 
 namespace navcal::fuzz::mcap_target {
 

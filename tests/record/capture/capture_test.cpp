@@ -6,6 +6,7 @@
 
 #include "record/capture/capture_reader.h"
 #include "record/capture/capture_writer.h"
+#include "tests/record/memory_source.h"
 #include "tests/record/sample_log.h"
 
 namespace navcal::record {

@@ -4,6 +4,7 @@
 #include "record/log/log_folder.h"
 #include "record/log/log_reader.h"
 #include "tests/record/memory_disk.h"
+#include "tests/record/memory_source.h"
 #include "tests/record/sample_log.h"
 
 namespace navcal::record {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "record/recording.h"
+#include "tests/record/memory_source.h"
 #include "tests/record/sample_log.h"
 
 namespace navcal::record {
