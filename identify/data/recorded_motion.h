@@ -46,10 +46,10 @@ struct RecordedMotion {
   // Places of the instruments in the body, m, by the configuration.
   Eigen::Vector3d imu_place_m = Eigen::Vector3d::Zero(), gauge_place_m = Eigen::Vector3d::Zero(),
                   doppler_place_m = Eigen::Vector3d::Zero(), antenna_place_m = Eigen::Vector3d::Zero();
-  double tilt_lag_s = 0;          ///< first-order lag of roll and pitch
-  double dip_rad = 0;             ///< of the Earth's field, by the compass; only with a lag
-  double gyro_turn_on_rad_s = 0;  ///< standard deviation of the bias at power-on
-  bool heading_is_true = false;   ///< as the device states it; else magnetic
+  double tilt_lag_s = 0;                  ///< first-order lag of roll and pitch
+  double dip_rad = 0;                     ///< of the Earth's field, by the compass; only with a lag
+  double gyro_turn_on_rad_s = 0;          ///< standard deviation of the bias at power-on
+  bool heading_is_true = false;           ///< as the device states it; else magnetic
   std::optional<double> declination_rad;  ///< by the configuration, else by the model at the fixes; positive east
   std::vector<std::string> remarks;
 
