@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -8,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
@@ -50,9 +48,7 @@ void check_recordings(const VehicleCheckArguments& arguments) {
   const identify::ConventionCheck found =
       identify::check_conventions(layout, load_motions(arguments.files, settings, progress),
                                   [&](double done) { progress.show("checking", done); });
-  analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(arguments.json ? report::conventions_json(found) : report::conventions_text(found));
-  output.flush();
+  print_answer(arguments.json ? report::conventions_json(found) : report::conventions_text(found));
 }
 
 void check_layout(const VehicleCheckArguments& arguments) {
@@ -98,9 +94,7 @@ void predict_vehicle(const VehiclePredictArguments& arguments) {
         const identify::Prediction found = prediction_of(arguments);
         if (!arguments.json.empty() && !json_only)
           write_result(arguments.json, report::vehicle_prediction_json(found));
-        analysis::Output output(STDOUT_FILENO, "standard output");
-        output.append(json_only ? report::vehicle_prediction_json(found) : report::vehicle_prediction_text(found));
-        output.flush();
+        print_answer(json_only ? report::vehicle_prediction_json(found) : report::vehicle_prediction_text(found));
       },
       analysis::Exit::bad_input);
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "instruments/start_up.h"
-
 namespace navcal::instruments {
 
 void Dialogue::start_at(std::int64_t when_ns) {
@@ -55,13 +53,6 @@ Dialogue::Wait Dialogue::ask(std::vector<std::uint8_t> command, int attempts, st
   listening_ = attempts == 0;
   due_ns_ = listening_ ? now_ns_ + patience_ns : now_ns_;
   return {answered_};
-}
-
-std::string StartUp::state() const {
-  std::string text = text_ + remark();
-  if (!refused_.empty()) text += "; refused: " + refused_;
-  if (!unanswered_.empty()) text += "; no answer to: " + unanswered_;
-  return text;
 }
 
 std::int64_t stopped_after_ns(double rate_Hz, std::int64_t least_ns) {

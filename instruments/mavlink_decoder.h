@@ -29,7 +29,7 @@ class MavlinkDecoder {
  public:
   static constexpr int kPrimaryBarometer = 3;  ///< instance of HIGHRES_IMU's pressure
 
-  /// What a message holds; nothing where it is of no use. Valid until the next call.
+  /// Samples of a message; none where it is of no use. Valid until the next call.
   [[nodiscard]] std::span<const MavlinkReading> read(const protocols::mavlink::Message& message);
   [[nodiscard]] std::optional<std::uint8_t> vehicle() const { return vehicle_; }
 

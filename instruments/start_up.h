@@ -21,7 +21,12 @@ class StartUp : public Dialogue {
   /// True when the dialogue is over and the device delivers.
   [[nodiscard]] bool in_service() const { return in_service_; }
   /// State as text for people: "running", "settings sent", "no answer to Ha: trying Ea", ...
-  [[nodiscard]] std::string state() const;
+  [[nodiscard]] std::string state() const {
+    std::string text = text_ + remark();
+    if (!refused_.empty()) text += "; refused: " + refused_;
+    if (!unanswered_.empty()) text += "; no answer to: " + unanswered_;
+    return text;
+  }
 
  protected:
   explicit StartUp(std::string before = "not begun") : text_(std::move(before)) {}

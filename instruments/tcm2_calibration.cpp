@@ -103,7 +103,7 @@ class Tcm2Calibration final : public CompassCalibration {
       part_ = Part::resuming;
     }
     doing_ = "putting the compass back to service";
-    // Of a silence, StartUp begins anew.
+    // After a silence, StartUp begins anew.
     if (!co_await ask(tcm2::encode_command({Verb::go}), kAttempts, stopped_after_ns_, is_word))
       fail("no words came after it");
   }

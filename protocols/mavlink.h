@@ -18,7 +18,7 @@ namespace navcal::protocols::mavlink {
 inline constexpr std::uint8_t kAutopilot = 1;    ///< the component
 inline constexpr std::uint8_t kNoAutopilot = 8;  ///< in a heartbeat
 
-/// What a message's checksum is made of (minimal.xml, common.xml, ardupilotmega.xml).
+/// Constants of a message for its checksum (minimal.xml, common.xml, ardupilotmega.xml).
 struct MessageInfo {
   std::string_view name;
   std::uint32_t id = 0;

@@ -11,9 +11,9 @@
 
 namespace navcal::sim {
 
-/// Where a mission begins.
+/// The body at the beginning of a mission.
 [[nodiscard]] Body body_at(const config::MissionStart& start);
-/// What an autopilot of the simulator steers by: the truth.
+/// The true state: an autopilot of the simulator steers by it.
 [[nodiscard]] autopilot::VehicleState vehicle_state(const Body& body);
 
 /// Takes a vehicle through the steps of a mission by its autopilot, which steers by the true state. Servos and

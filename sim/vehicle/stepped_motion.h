@@ -53,14 +53,14 @@ class SteppedMotion : public Motion {
   [[nodiscard]] std::int64_t elapsed_ns() const { return steps_ * kMotionStep_ns; }
   [[nodiscard]] double time_s() const { return static_cast<double>(steps_) * kMotionStep_s; }
   [[nodiscard]] Influences influences() const;
-  /// Of body(); without actuators.
+  /// The state of body(), without actuators.
   [[nodiscard]] State state_of(const Vector6& acceleration, const Influences& influences) const;
   /// Share of a floating hull that is out of the water: clamp(1/2 - z/H, 0, 1), with depth z of the origin.
   [[nodiscard]] double emerged(double height_m) const {
     return std::clamp(0.5 - body_.position_m.z() / height_m, 0.0, 1.0);
   }
 
-  // What the vehicle was told and nobody took yet, for `history_s` at most.
+  // Orders to the vehicle are kept until they are taken, for `history_s` at most.
   template <class Told>
   void tell(std::deque<Told>& waiting, Told told) const {
     waiting.push_back(std::move(told));

@@ -86,7 +86,7 @@ TEST_F(MavlinkVehicle, IsReadAskedAndStampedByItsOwnClock) {
   EXPECT_EQ(counts["HEARTBEAT"], truth["sent"]["0"]);
   EXPECT_GT(untrimmed, 0);
 
-  // What it was asked, in good frames of a component of the vehicle, and again after its restart.
+  // Requests to it, in good frames of a component of the vehicle, and those after its restart.
   std::map<double, int> asked, asked_again;
   int heartbeats = 0;
   for (const json& came : truth["came"]) {

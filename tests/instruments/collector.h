@@ -14,7 +14,7 @@ namespace navcal::instruments {
 class Collector : public Receiver {
  public:
   explicit Collector(Instrument& instrument) : instrument_(instrument) {}
-  /// Of the instrument that the daemon makes for a port.
+  /// Collects from the instrument that the daemon makes for a port.
   explicit Collector(const config::PortSettings& settings) : own_(make_instrument(settings)), instrument_(*own_) {}
   explicit Collector(protocols::Protocol protocol) : Collector(port_with(protocol)) {}
 

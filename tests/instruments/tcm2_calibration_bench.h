@@ -36,7 +36,7 @@ class Tcm2CalibrationBench {
   /// Words that came in the last second of the run.
   [[nodiscard]] bool words_flow();
 
-  /// Of the score that the compass gave itself.
+  /// The horizontal part of the score that the compass gave itself.
   [[nodiscard]] std::optional<double> horizontal() const {
     const auto figures = dialogue.figures();
     return figures.empty() ? std::nullopt : std::optional(figures.front().value);

@@ -106,7 +106,7 @@ TEST(Misalignment, RunsBothWaysTellTheCurrentFromIt) {
   EXPECT_TRUE(misalignment.judgement().accepted);
 }
 
-// Of an uncalibrated compass four legs said -21, -79, 94 and 30 degrees; their mean was accepted with 0.6.
+// Four legs of an uncalibrated compass said -21, -79, 94 and 30 degrees; their mean was accepted with 0.6.
 TEST(Misalignment, RunsThatContradictEachOtherAreNoMisalignment) {
   for (const auto& [deviation_deg, harmonic] : {std::pair{0.0, 1}, {40.0, 1}, {5.0, 2}}) {
     Misalignment misalignment;
