@@ -39,12 +39,16 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
   for (const std::string& oddity : mine.filter().oddities()) answer.remarks.push_back(oddity);
   const CauseSearchResult found =
       search_causes(mine, bank.prior, library, [&](double done) { progress("search", done); });
-  const auto estimate = SetEvidence(found.changes, library).posterior(found.sets.front().causes);
-  const Eigen::VectorXd change = estimate.among(library.columns());
   ExplainedRecording itself;
   itself.before = mine.power(found.none_at).value_or(RecordingPower{});
-  itself.after =
-      mine.power(bank.prior.posterior_mean(found.best.linear.about(change)) + change).value_or(itself.before);
+  const auto with = [&](const CauseSet& set) {
+    ExplainedRecording changed = itself;
+    const auto by = SetEvidence(found.changes, library).posterior(set).among(library.columns());
+    changed.after =
+        mine.power(bank.prior.posterior_mean(found.best.linear.about(by)) + by).value_or(itself.before);
+    return changed;
+  };
+  itself = with(found.sets.front().causes);
   answer.where = louder_channels(itself.before, bank.powers);
   std::vector<ExplainedRecording> explained;
   if (!found.sets.front().causes.empty()) {
@@ -57,7 +61,11 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
   answer.gap.pooled =
       closure_of(explained.empty() ? std::span(&itself, 1) : std::span(explained.data(), explained.size()),
                  bank.floor().mean, request.seed);
-  write_verdict({library, bank, found, itself.after, explained}, answer);
+  const auto closure = [&](const CauseSet& set) {
+    const ExplainedRecording one = with(set);
+    return closure_of(std::span(&one, 1), bank.floor().mean, request.seed);
+  };
+  write_verdict({library, bank, found, itself.after, explained, closure}, answer);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "diagnosis/limits.h"
 #include "diagnosis/louder_channels.h"
+#include "gap/verdict/answer.h"
 
 namespace navcal::diagnosis {
 namespace {
@@ -86,9 +87,11 @@ std::string names_of(const std::vector<gap::EffectFinding>& effects) {
   return fmt::format("{}", fmt::join(words, " and "));
 }
 
-/// Why a cause of the most probable set is not named; empty where nothing speaks against it.
+/// Why a cause of the most probable set is not named, and of which kind its gap then is; empty where nothing
+/// speaks against it.
 std::optional<std::string> objection(const LayoutEvidence& evidence, const Member& member, std::size_t place,
-                                     const gap::EffectFinding& finding) {
+                                     const gap::EffectFinding& finding, gap::UnknownKind& kind) {
+  kind = gap::UnknownKind::cannot_say;
   const Cause& cause = evidence.library.causes[member.cause];
   const double chance_nats = evidence.bank.chance_nats[member.cause];
   if (member.lead_nats < kNamed_nats + chance_nats) {
@@ -104,11 +107,14 @@ std::optional<std::string> objection(const LayoutEvidence& evidence, const Membe
     presence = std::max(presence, std::abs(estimate.value) / estimate.std_error);
     const double strength = std::abs(estimate.value) / parameter.typical;
     const bool is_loss = cause.is_of_actuator() && parameter.name == "scale" && estimate.value < 0;
-    if (!is_loss && strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical)
+    if (!is_loss && strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical) {
+      kind = gap::UnknownKind::outside;
       return fmt::format("{} would have {:.0f} times its typical strength", cause.words(), strength);
+    }
   }
   if (presence < kLeastPresence_sigma)
     return fmt::format("the strength of {} cannot be told from zero", cause.words());
+  kind = gap::UnknownKind::outside;
   double gain_nats = 0, least_nats = 0;
   for (const ExplainedRecording& one : evidence.held_out) {
     const double here_nats = one.member_nats.empty() ? one.gain_nats : one.member_nats[place];
@@ -122,10 +128,28 @@ std::optional<std::string> objection(const LayoutEvidence& evidence, const Membe
   return std::nullopt;
 }
 
-void say_unknown(const std::string& reason, const std::vector<gap::WhereEntry>& louder, gap::Diagnosis& answer) {
-  answer.verdict = gap::Verdict::unknown;
-  answer.sentence = "There is a gap, but its cause is not known: " + reason + '.';
-  answer.unexplained.push_back(reason);
+/// Sets that are nearly as probable as the best one; none where fewer than two close the gap.
+std::vector<gap::Alternative> alternatives_of(const LayoutEvidence& evidence) {
+  constexpr std::size_t kMostAlternatives = 3;
+  const auto& sets = evidence.found.sets;
+  std::vector<gap::Alternative> all;
+  for (const ScoredSet& one : sets) {
+    if (sets.front().log_odds - one.log_odds >= kNamed_nats || all.size() == kMostAlternatives) break;
+    const gap::Closure closure = one.causes.empty() ? gap::Closure{} : evidence.closure(one.causes);
+    if (one.causes.empty() || (closure.closed_ci && (*closure.closed_ci)[1] < gap::kClosedFrom)) continue;
+    const auto estimate = SetEvidence(evidence.found.changes, evidence.library).posterior(one.causes);
+    all.push_back({{}, one.probability, closure.closed});
+    for (const std::size_t cause : one.causes)
+      all.back().effects.push_back(finding_of(evidence.library.causes[cause], one.probability, estimate));
+  }
+  if (all.size() < 2) all.clear();
+  return all;
+}
+
+void say_unknown(gap::UnknownKind kind, const std::string& reason, const std::vector<gap::WhereEntry>& louder,
+                 gap::Diagnosis& answer) {
+  gap::write_unknown(kind, reason, answer);
+  if (!reason.empty()) answer.unexplained.push_back(reason);
   for (const gap::WhereEntry& entry : louder) {
     answer.unexplained.push_back(
         fmt::format("{}: noise power {:.2f}, nominal {:.2f}", entry.channel, entry.gap, entry.floor));
@@ -173,7 +197,7 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
 }  // namespace
 
 void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
-  const auto& [library, bank, found, after, held_out] = evidence;
+  const auto& [library, bank, found, after, held_out, closure] = evidence;
   const ScoredSet& best = found.sets.front();
   add_candidates(evidence, answer);
   const bool has_floor = !bank.powers.empty();
@@ -195,21 +219,23 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     if (has_floor) answer.sentence = fmt::format("Nothing exceeds what nominal recordings show{}.", but);
     return;
   }
-  if (best.causes.empty()) return say_unknown("no effect of the library explains it", louder, answer);
+  if (best.causes.empty()) return say_unknown(gap::UnknownKind::outside, {}, louder, answer);
   const auto estimate = SetEvidence(found.changes, library).posterior(best.causes);
   std::optional<std::string> reason;
   std::vector<std::string> not_named;
+  auto kind = gap::UnknownKind::outside;
   for (std::size_t i = 0; i < best.causes.size(); ++i) {
     const Member member = member_of(evidence, best.causes[i]);
     gap::EffectFinding finding = finding_of(library.causes[member.cause], member.probability, estimate);
     finding.confused_with = member.confused_with;
-    if (auto why = objection(evidence, member, i, finding)) {
+    if (auto why = objection(evidence, member, i, finding, kind)) {
       not_named.push_back(*why);
     } else {
       answer.effects.push_back(std::move(finding));
     }
   }
   if (!has_floor) return say_unconfirmed(answer);
+  if (!answer.effects.empty() || !louder.empty() || is_loud) kind = gap::UnknownKind::outside;
   if (answer.effects.empty()) {
     reason = not_named.front();
   } else if (!louder.empty()) {
@@ -221,7 +247,9 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   }
   if (reason) {
     answer.effects.clear();
-    return say_unknown(*reason, louder, answer);
+    if (kind == gap::UnknownKind::cannot_say) answer.alternatives = alternatives_of(evidence);
+    if (!answer.alternatives.empty()) kind = gap::UnknownKind::ambiguous;
+    return say_unknown(kind, *reason, louder, answer);
   }
   answer.verdict = gap::Verdict::explained;
   answer.sentence = fmt::format("The gap is explained by {}.", names_of(answer.effects));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "diagnosis/held_out.h"
@@ -16,6 +17,8 @@ struct LayoutEvidence {
   const CauseSearchResult& found;
   const RecordingPower& after;                   ///< of the recording with the causes found
   std::span<const ExplainedRecording> held_out;  ///< may be none
+  /// How much of the gap goes away with a set of causes.
+  std::function<gap::Closure(const CauseSet&)> closure = {};
 };
 
 /// Writes verdict, sentence, effects, candidates and what stays unexplained (docs/gap.md, "Vehicles with a

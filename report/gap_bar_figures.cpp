@@ -114,17 +114,17 @@ std::optional<Figure> cause_figure(const gap::Diagnosis& diagnosis) {
   };
   std::string html = "<div class=\"ranks\">\n";
   for (const auto& effect : effects) append_cause(html, effect, Standing::named);
-  const bool unknown = diagnosis.verdict == gap::Verdict::unknown;
-  const Standing standing = unknown ? Standing::unconvincing : Standing::considered;
+  const bool outside = diagnosis.verdict == gap::Verdict::unknown && diagnosis.kind == gap::UnknownKind::outside;
+  const Standing standing = outside ? Standing::unconvincing : Standing::considered;
   std::size_t others = 0;
   for (const auto& candidate : diagnosis.candidates) {
     if (!is_named(candidate) && others++ < kMostCauses) append_cause(html, candidate, standing);
   }
   html += "</div>\n";
   if (effects.empty() && others == 0) return std::nullopt;
-  return Figure{effects.empty() ? "Considered, but not sufficient" : "Causes by probability", std::move(html),
+  return Figure{outside ? "Considered, but not sufficient" : "Causes by probability", std::move(html),
                 effects.empty()
-                    ? "No cause is named. " + std::string(kNoneExplains)
+                    ? "No cause is named. " + std::string(candidates_heading(diagnosis.kind))
                     : "Blue: the set on which the verdict rests, with standard errors. Grey: considered "
                       "as well."};
 }

@@ -47,6 +47,12 @@ OrderedJson json_of(const gap::EffectFinding& effect) {
   return json;
 }
 
+OrderedJson json_of(const gap::Alternative& alternative) {
+  return {{"effects", list_of(alternative.effects, [](const auto& effect) { return json_of(effect); })},
+          {"probability", alternative.probability},
+          {"closed", alternative.closed ? OrderedJson(*alternative.closed) : OrderedJson()}};
+}
+
 OrderedJson json_of(const gap::Closure& closure, const std::string& unit) {
   OrderedJson closed, interval;
   if (closure.closed) closed = *closure.closed;
@@ -206,6 +212,10 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"bank", json_of(diagnosis.bank)},
       {"duration_s", diagnosis.duration_s},
       {"seconds", diagnosis.seconds}};
+  if (diagnosis.verdict == gap::Verdict::unknown) {
+    json["kind"] = gap::name_of(diagnosis.kind);
+    json["alternatives"] = list_of(diagnosis.alternatives, convert);
+  }
   if (!diagnosis.recordings.empty()) {
     json["recordings"] = list_of(diagnosis.recordings, convert);
     json["differences"] = list_of(diagnosis.differences, convert);

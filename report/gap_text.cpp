@@ -101,8 +101,12 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
     append_lines(out, "how much", {size_text(diagnosis.gap.pooled)});
     const bool unknown = diagnosis.verdict == gap::Verdict::unknown;
     const bool any = unknown && !diagnosis.candidates.empty();
-    if (any) append_lines(out, "not convincing", {std::string(kNoneExplains)});
-    append_effects(out, any ? "" : "not convincing", diagnosis.candidates, kMostCandidates, !unknown);
+    const bool several = unknown && diagnosis.kind == gap::UnknownKind::ambiguous;
+    const std::string_view title = several ? "either" : "not convincing";
+    if (any) append_lines(out, title, {std::string(candidates_heading(diagnosis.kind))});
+    for (const auto& set : diagnosis.alternatives)
+      append_effects(out, "or", set.effects, set.effects.size(), true);
+    if (!several) append_effects(out, any ? "" : title, diagnosis.candidates, kMostCandidates, !unknown);
   }
   append_lines(out, "consequence", consequences(diagnosis.gap, kArrowText));
   append_lines(out, "left over", diagnosis.unexplained);

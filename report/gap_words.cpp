@@ -33,6 +33,16 @@ std::string_view verdict_word(gap::Verdict verdict) {
   return verdict == gap::Verdict::no_gap ? "no gap" : gap::name_of(verdict);
 }
 
+std::string_view candidates_heading(gap::UnknownKind kind) {
+  switch (kind) {
+    case gap::UnknownKind::ambiguous: return "Each of these sets of effects explains the recording.";
+    case gap::UnknownKind::outside:
+      return "The best fits of the library, in order; none of them explains the recording.";
+    case gap::UnknownKind::cannot_say: break;
+  }
+  return "The best fits of the library, in order; whether one of them is the cause cannot be said.";
+}
+
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
   if (!diagnosis.sentence.empty()) return diagnosis.sentence;
   switch (diagnosis.verdict) {
@@ -59,10 +69,18 @@ std::string source_text(const gap::Diagnosis& diagnosis) {
   const auto& sources = diagnosis.sources;
   if (sources.empty() || sources.front().gain_nats < gap::kObservable_nats) return {};
   const auto named = [](const gap::SourceFinding& source) {
-    return fmt::format("{} ({})", source.words, source.name);
+    double strength = 0;
+    for (const gap::ErrorFinding& error : source.errors) strength = std::max(strength, error.strength);
+    const std::string doubt =
+        source.closes_nothing ? ", which has nothing to close on its own channel"
+        : strength > gap::kLargestStrength
+            ? fmt::format(", whose error would be {} times as large as usual", amount(strength))
+            : "";
+    return fmt::format("{} ({}){}", source.words, source.name, doubt);
   };
   if (sources.size() == 1) return fmt::format("{}; no other source describes it", named(sources[0]));
   const double apart = sources[0].gain_nats - sources[1].gain_nats;
+  if (sources[1].closes_nothing) return fmt::format("{}; not {}", named(sources[0]), named(sources[1]));
   if (apart < gap::kObservable_nats) {
     return fmt::format("{} or {}: they cannot be told apart here ({} nats)", named(sources[0]), named(sources[1]),
                        amount(apart));

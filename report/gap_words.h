@@ -50,9 +50,9 @@ inline constexpr std::string_view kDescriptionNotCause =
 /// Probability, such as "99.3 %" or "> 99.9 %".
 [[nodiscard]] std::string probability_text(double probability);
 /// Heading of the candidates under the verdict unknown. Their probabilities compare them with each other and with
-/// no effect at all. That is no evidence that one of them is the cause, so they are not shown.
-inline constexpr std::string_view kNoneExplains =
-    "The best fits of the library, in order; none of them explains the recording.";
+/// no effect at all. That is no evidence that one of them is the cause, so they are shown of an ambiguous gap
+/// only.
+[[nodiscard]] std::string_view candidates_heading(gap::UnknownKind kind);
 /// p-value, such as "1e-9" or "0.03".
 [[nodiscard]] std::string chance_text(double p_value);
 

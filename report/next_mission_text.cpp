@@ -100,6 +100,10 @@ std::string next_mission_text(const gap::NextMission& next, const NextMissionSou
                  most.greatest_depth_m, most.range_m, most.speed_m_s, most.turn_rad_s * base::kDegreesPerRadian,
                  most.energy_Wh);
   fmt::format_to(at, "to try it  navcal simulate --mission {} -o next.cap\n", source.mission);
+  fmt::format_to(at, "then       navcal gap {} next.cap", fmt::join(source.recordings, " "));
+  for (const std::string& file : source.holdouts) fmt::format_to(at, " --holdout {}", file);
+  if (!source.vehicle.empty()) fmt::format_to(at, " --vehicle {}", source.vehicle);
+  out += '\n';
   return out;
 }
 

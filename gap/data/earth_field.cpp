@@ -146,14 +146,7 @@ std::string doubt_of(const EarthField& field) {
     return "the World Magnetic Model is valid from 2025 to 2029; before and after, it may be degrees off (--field "
            "N,E,D states the field)";
   }
-  if (field.source != EarthField::Source::model) return {};
-  // Default position of recordings by navcal simulate and by the simulators before it.
-  constexpr double kLatitude_deg = 37.0629, kLongitude_deg = -80.6275, kNear_deg = 0.2;
-  const bool is_near = std::abs(field.place->latitude_rad * base::kDegreesPerRadian - kLatitude_deg) < kNear_deg &&
-                       std::abs(field.place->longitude_rad * base::kDegreesPerRadian - kLongitude_deg) < kNear_deg;
-  if (!is_near) return {};
-  return "instruments simulated or emulated at this place are in a reference field unless told otherwise; their "
-         "recordings are read with --field 19.0,0.6,44.0";
+  return {};
 }
 
 std::optional<Vector3> stated_field_uT(std::string_view event) {

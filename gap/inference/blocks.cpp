@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/blocks.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gap/inference/evidence.h"
@@ -10,8 +11,22 @@
 namespace navcal::gap {
 namespace {
 
+/// Whether the evidence tells each of the effects, at these values, from every other one.
+bool tells(const Evidence& evidence, const EffectSubset& effects, const Eigen::VectorXd& values,
+           const Library& library) {
+  for (const std::size_t effect : effects) {
+    const auto members = parameter_indices(library, {effect});
+    for (std::size_t other = 0; other < library.size(); ++other) {
+      if (std::find(effects.begin(), effects.end(), other) != effects.end() || !library.holds(other)) continue;
+      if (evidence.separation(members, values, parameter_indices(library, {other})) < kObservable_nats)
+        return false;
+    }
+  }
+  return true;
+}
+
 /// Gain in log likelihood by the effects on the rows that are not learnt from, nats. `learn` is 1 in rows to learn
-/// from.
+/// from. Rows that cannot tell the effects from another one predict nothing: a loss by them is none.
 double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, const LinearGaussianModel& model) {
   const Linearised& linear = model.linear;
   const Priors& priors = model.priors;
@@ -22,12 +37,14 @@ double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, co
   const Eigen::MatrixXd gram = design.transpose() * linear.design;
   const Eigen::VectorXd score = design.transpose() * data;
   const Eigen::VectorXd without = Evidence(gram, score, others.spike, others.slab).base_posterior().mean;
-  const Eigen::VectorXd with = Evidence(gram, score, priors.spike, priors.slab).posterior(members).mean;
+  const Evidence evidence(gram, score, priors.spike, priors.slab);
+  const Eigen::VectorXd with = evidence.posterior(members).mean;
   const Eigen::VectorXd judged = (1 - learn.array()).matrix();
   const auto misfit = [&](const Eigen::VectorXd& values) {
     return judged.cwiseProduct(data - linear.design * values).squaredNorm();
   };
-  return 0.5 * (misfit(without) - misfit(with));
+  const double gain_nats = 0.5 * (misfit(without) - misfit(with));
+  return gain_nats < 0 && !tells(evidence, effects, with, model.library) ? 0 : gain_nats;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "gap/inference/subset_evidence.h"
 #include "gap/replay/regimes.h"
@@ -36,12 +37,10 @@ std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found,
   return all;
 }
 
-std::vector<EffectParameterEstimate> parameters(std::size_t effect, const SearchResult& found,
-                                                const Library& library) {
+std::vector<EffectParameterEstimate> parameters(std::size_t effect, const ModelFit& fit, const Library& library) {
   std::vector<EffectParameterEstimate> all;
   for (const Eigen::Index j : parameter_indices(library, {effect})) {
-    all.push_back({std::string(library.unknowns()[static_cast<std::size_t>(j)].name), found.best.mean[j],
-                   found.best.std[j]});
+    all.push_back({std::string(library.unknowns()[static_cast<std::size_t>(j)].name), fit.mean[j], fit.std[j]});
   }
   return all;
 }
@@ -129,23 +128,88 @@ void write_explained(Diagnosis& answer) {
   answer.next.emplace_back("take the effects into the simulator and calibrate or mend what causes them");
 }
 
-/// Writes the sentence of an unexplained gap, its candidates, and the manoeuvres that test them.
-void write_unknown(Diagnosis& answer) {
-  answer.sentence = "There is a gap, and no effect of the library explains it well enough to be named.";
+std::string words_of(const Alternative& alternative, std::string_view between = " and ") {
+  std::vector<std::string> names;
+  for (const EffectFinding& effect : alternative.effects)
+    names.push_back(effect.of.empty() ? effect.name : effect.name + " of " + effect.of);
+  return fmt::format("{}", fmt::join(names, between));
+}
+
+/// Manoeuvres of the effects that only one of two sets holds.
+std::string deciding_manoeuvres(const Alternative& one, const Alternative& other) {
+  std::map<std::string, std::string> manoeuvres;
+  for (const Alternative* each : {&one, &other}) {
+    for (const EffectFinding& effect : each->effects) {
+      const auto [at, is_new] = manoeuvres.try_emplace(effect.name + effect.of, effect.manoeuvre);
+      if (!is_new) manoeuvres.erase(at);
+    }
+  }
+  std::set<std::string_view> texts;
+  for (const auto& [name, text] : manoeuvres) texts.insert(text);
+  return fmt::format("{}", fmt::join(texts, "; and "));
+}
+
+/// Writes the candidates of an unexplained gap, and the manoeuvres that test them.
+void write_candidates(Diagnosis& answer) {
   if (answer.candidates.empty() || answer.candidates.front().probability < kLikelyFrom) {
     answer.next.emplace_back("look at what is left unexplained and add an effect for it to the simulator");
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(answer.candidates.size(), 3); ++i) {
     const EffectFinding& candidate = answer.candidates[i];
     if (candidate.probability < kToldFrom) break;
-    answer.unexplained.push_back(
-        fmt::format("candidate: {} fits {} of the library's effects, and does not explain the recording",
-                    candidate.name, i == 0 ? "best" : "next best"));
+    answer.unexplained.push_back(fmt::format(
+        "candidate: {} fits {} of the library's effects, and {}", candidate.name, i == 0 ? "best" : "next best",
+        answer.kind == UnknownKind::outside ? "does not explain the recording" : "is not certain"));
     answer.next.push_back(fmt::format("to see whether it is {}: {}", candidate.name, candidate.manoeuvre));
   }
 }
 
 }  // namespace
+
+Alternative alternative_of(const ModelFit& fit, const Library& library, double probability,
+                           std::optional<double> closed) {
+  Alternative alternative{{}, probability, closed};
+  for (const std::size_t effect : fit.effects) {
+    alternative.effects.push_back(
+        {std::string(library[effect].name), probability, parameters(effect, fit, library), {}});
+    alternative.effects.back().manoeuvre = library[effect].manoeuvre.text();
+  }
+  return alternative;
+}
+
+bool shows_gap(const Diagnosis& answer) {
+  return answer.gap.pooled.closed ||
+         std::any_of(answer.where.begin(), answer.where.end(),
+                     [](const WhereEntry& entry) { return entry.p_value <= kSignificantAgainstExactBelow; });
+}
+
+void write_unknown(UnknownKind kind, std::string_view reason, Diagnosis& answer) {
+  answer.verdict = Verdict::unknown;
+  answer.kind = kind;
+  std::vector<std::string> sets;
+  for (const Alternative& each : answer.alternatives) {
+    const std::string closed = each.closed ? fmt::format(", {:.0f} % closed", 100 * *each.closed) : "";
+    sets.push_back(fmt::format("{} (probability {:.2f}{})", words_of(each), each.probability, closed));
+  }
+  switch (kind) {
+    case UnknownKind::ambiguous:
+      answer.sentence = fmt::format("Ambiguous: there is a gap, and {} explains it.", fmt::join(sets, ", or "));
+      for (std::size_t i = 1; i < answer.alternatives.size(); ++i) {
+        const Alternative &one = answer.alternatives.front(), &other = answer.alternatives[i];
+        answer.next.push_back(fmt::format("to decide between {} and {}: {}", words_of(one, " + "),
+                                          words_of(other, " + "), deciding_manoeuvres(one, other)));
+      }
+      return;
+    case UnknownKind::outside:
+      answer.sentence =
+          "Outside the library: there is a gap, and neither an effect nor several together explain it";
+      break;
+    case UnknownKind::cannot_say:
+      answer.sentence = shows_gap(answer) ? "The cause cannot be said" : "Whether there is a gap cannot be said";
+      break;
+  }
+  answer.sentence += reason.empty() ? "." : fmt::format(": {}.", reason);
+}
 
 void write_findings(const FoundEffects& result, const Library& library, Diagnosis& answer) {
   const SearchResult& found = result.found;
@@ -161,7 +225,7 @@ void write_findings(const FoundEffects& result, const Library& library, Diagnosi
     EffectFinding finding{std::string(library[effect].name), std::min(probability, 1.0), {}, {}};
     finding.manoeuvre = library[effect].manoeuvre.text();
     if (member) {
-      finding.parameters = parameters(effect, found, library);
+      finding.parameters = parameters(effect, found.best, library);
       finding.confused_with = confusions(effect, found, library, evidence);
       if (answer.verdict == Verdict::explained) answer.effects.push_back(finding);
     }
@@ -201,7 +265,10 @@ void write_words(Diagnosis& answer) {
       }
       return;
     case Verdict::explained: write_explained(answer); return;
-    case Verdict::unknown: write_unknown(answer); return;
+    case Verdict::unknown:
+      write_unknown(answer.kind, answer.unexplained.empty() ? "" : answer.unexplained.front(), answer);
+      if (answer.kind != UnknownKind::ambiguous) write_candidates(answer);
+      return;
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "gap/inference/library.h"
@@ -17,6 +19,18 @@ void write_findings(const FoundEffects& result, const Library& library, Diagnosi
 /// Writes how far the gap shrinks, pooled and by channel, and the resulting navigation errors.
 void write_gap(const std::vector<Comparison>& compared, const PooledClosure& closure, bool held_out,
                Diagnosis& answer);
+
+/// The set of effects of a fit, with `probability` and `closed`.
+[[nodiscard]] Alternative alternative_of(const ModelFit& fit, const Library& library, double probability,
+                                         std::optional<double> closed);
+
+/// Whether the recording departs significantly from the nominal vehicle, in its power or in a cell of the residual
+/// map. Needs the gap.
+[[nodiscard]] bool shows_gap(const Diagnosis& answer);
+
+/// Makes the verdict unknown and writes its sentence, for the reference vehicle and for layouts. An ambiguous gap
+/// also gets the manoeuvres that decide between its alternatives. `reason`: what is missing or does not fit.
+void write_unknown(UnknownKind kind, std::string_view reason, Diagnosis& answer);
 
 /// Writes the sentence and the next steps, once everything else is known.
 void write_words(Diagnosis& answer);

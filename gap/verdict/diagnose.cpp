@@ -197,9 +197,35 @@ std::string other_vehicle_text(double least_ratio) {
       least_ratio);
 }
 
+/// The sets that are still probable, each with the closure of its own estimate, if several close the gap.
+std::vector<Alternative> alternatives_of(const DiagnosisProblem& problem, const FoundEffects& result,
+                                         const HoldOuts& holdouts) {
+  constexpr std::size_t kMostAlternatives = 3;
+  std::vector<Alternative> all;
+  for (const Candidate& set : result.found.candidates) {
+    if (set.effects.empty() || set.probability < kToldFrom || all.size() == kMostAlternatives) continue;
+    const ModelFit fit = set.effects == result.found.best.effects
+                             ? result.found.best
+                             : fit_model(set.effects, problem.inference(result.nominal, result.priors));
+    SearchResult alone;
+    alone.best = fit;
+    Comparisons compared = compare_all(problem, alone, holdouts);
+    if (compared.holdouts.empty()) {
+      compared.holdouts = std::move(compared.others);
+      compared.holdouts.push_back(std::move(compared.here));
+    }
+    const PooledClosure closure = pooled_closure(compared.holdouts);
+    if (closure.clear && closure.upper < kClosedFrom) continue;
+    all.push_back(alternative_of(fit, problem.library, set.probability,
+                                 closure.clear ? std::optional(closure.closed) : std::nullopt));
+  }
+  if (all.size() < 2) all.clear();
+  return all;
+}
+
 /// The verdict, the gap's size and how much of it the effects close.
-void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Comparisons compared,
-                Diagnosis& answer) {
+void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, const HoldOuts& holdouts,
+                Comparisons compared, Diagnosis& answer) {
   std::vector<std::vector<WhereEntry>> leftovers = leftover_of_others(problem, result, compared.others);
   leftovers.insert(leftovers.begin(), leftover_of(problem, result, compared.here, !answer.where.empty()));
   const std::vector<WhereEntry> leftover = merged(std::move(leftovers));
@@ -226,15 +252,25 @@ void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Com
       judge({result.found, problem.library, answer.where, leftover, gains_nats, closure, closure_by_all, blocks});
   answer.verdict = judgement.verdict;
   answer.unexplained = judgement.reasons;
-  if (judges_nothing(result, problem.library)) answer.verdict = Verdict::unknown;
+  write_gap(compared.holdouts, closure, !blocks, answer);
+  const bool is_seen = shows_gap(answer);
+  answer.kind = is_seen ? judgement.kind : UnknownKind::cannot_say;
+  if (answer.verdict == Verdict::unknown && is_seen && answer.kind == UnknownKind::cannot_say) {
+    answer.alternatives = alternatives_of(problem, result, holdouts);
+    if (!answer.alternatives.empty()) answer.kind = UnknownKind::ambiguous;
+  }
+  if (judges_nothing(result, problem.library)) {
+    answer.verdict = Verdict::unknown;
+    answer.kind = UnknownKind::cannot_say;
+  }
   if (answer.verdict == Verdict::no_gap && !answer.where.empty() && !result.not_judged().empty()) {
     answer.verdict = Verdict::unknown;
+    answer.kind = UnknownKind::cannot_say;
     answer.unexplained.push_back(hidden_cause_text(result, problem.library));
   }
   if (answer.verdict == Verdict::unknown && answer.least_ratio.value_or(0) > kOtherVehicle) {
     answer.unexplained.insert(answer.unexplained.begin(), other_vehicle_text(*answer.least_ratio));
   }
-  write_gap(compared.holdouts, closure, !blocks, answer);
 }
 
 /// Fills in the data of the page's figures.
@@ -275,8 +311,9 @@ FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& 
   const Comparison here = compared.here;
   write_map(problem, compared, answer);
   remark_on(result, problem.library, answer);
-  judge_into(problem, result, std::move(compared), answer);
-  if (answer.where.empty() && answer.verdict != Verdict::no_gap && with_effects && !answer.map.empty()) {
+  judge_into(problem, result, holdouts, std::move(compared), answer);
+  const bool is_named = answer.verdict == Verdict::explained || answer.kind == UnknownKind::ambiguous;
+  if (answer.where.empty() && is_named && with_effects && !answer.map.empty()) {
     const Eigen::MatrixXd nominal_rms = explained_rms(here.nominal, a.course, here.fix_times_s);
     const Eigen::MatrixXd with_members = explained_rms(here.improved, here.course, here.fix_times_s);
     answer.where.push_back(most_changed(answer.map, nominal_rms, with_members, a.bank.explained_rms));
@@ -314,9 +351,9 @@ FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& 
 void say_without_causes(const Request& request, const Progress& progress, const std::string& why,
                         Diagnosis& answer) {
   answer.sentence = fmt::format("The causes of a gap cannot be found: {}.", why);
-  calib::Report report =
-      instruments_alone(request.missions.front(), request.settings, answer.field.value_or(EarthField{}),
-                        [&](double done) { progress("comparing the instruments with each other", done); });
+  calib::Report report = instruments_alone(
+      request.missions.front(), request.settings, answer.field.value_or(EarthField{}),
+      [&](double done) { progress("comparing the instruments with each other", done); });
   if (!report.calibrators.empty()) answer.instruments_alone = std::move(report);
 }
 

@@ -12,4 +12,13 @@ std::string_view name_of(Verdict verdict) {
   return "unknown";
 }
 
+std::string_view name_of(UnknownKind kind) {
+  switch (kind) {
+    case UnknownKind::ambiguous: return "ambiguous";
+    case UnknownKind::outside: return "outside";
+    case UnknownKind::cannot_say: break;
+  }
+  return "cannot say";
+}
+
 }  // namespace navcal::gap

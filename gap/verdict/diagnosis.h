@@ -20,10 +20,18 @@ namespace navcal::gap {
 enum class Verdict : std::uint8_t {
   no_gap,     ///< nothing beyond a tolerance of 2 % on everything
   explained,  ///< a set of effects wins, leaves nothing but noise, and improves what was held out
-  unknown,    ///< there is a gap, and nothing in the library explains it
+  unknown,    ///< anything else: UnknownKind
 };
 /// "no-gap", "explained", "unknown".
 [[nodiscard]] std::string_view name_of(Verdict verdict);
+
+enum class UnknownKind : std::uint8_t {
+  ambiguous,   ///< several sets of effects explain the gap
+  outside,     ///< there is a gap, and nothing in the library explains it
+  cannot_say,  ///< the recordings do not tell
+};
+/// "ambiguous", "outside", "cannot say".
+[[nodiscard]] std::string_view name_of(UnknownKind kind);
 
 /// Cell of the residual map: a channel whose residuals exceed the nominal vehicle's, and the regime that
 /// explains the excess.
@@ -45,6 +53,7 @@ struct ErrorFinding {
   std::vector<std::string> families;  ///< kinds of quantities in it: "rate", "speed"
   double rms = 0, std_error = 0;      ///< size of the error; negative: against the quantity
   std::string unit;
+  double strength = 0;  ///< the size in typical ones of the component
 };
 
 /// An instrument or force by whose error the residuals can be described.
@@ -53,6 +62,8 @@ struct SourceFinding {
   std::string words;     ///< "the inclinometer"
   double gain_nats = 0;  ///< log evidence over that of a vehicle within tolerance
   std::vector<ErrorFinding> errors;
+  /// No channel of its errors has a significant place, although they are measured: it describes others only.
+  bool closes_nothing = false;
 };
 
 struct EffectParameterEstimate {
@@ -81,6 +92,13 @@ struct Closure {
   double before = 0, after = 0, floor = 0;
   std::optional<double> closed;
   std::optional<std::array<double, 2>> closed_ci;  ///< 95 %
+};
+
+/// A set of effects that explains an ambiguous gap.
+struct Alternative {
+  std::vector<EffectFinding> effects;
+  double probability = 0;
+  std::optional<double> closed;  ///< as in Closure
 };
 
 /// Description of what no effect explains, by the errors of the leading source. It is no cause.
@@ -160,13 +178,15 @@ struct EffectDifference {
 
 struct Diagnosis {
   Verdict verdict = Verdict::unknown;
-  std::string sentence;                   ///< the verdict for people
-  std::vector<WhereEntry> where;          ///< significant cells, strongest first
-  std::vector<WhereEntry> map;            ///< every channel and regime, for the figure
-  std::vector<SourceFinding> sources;     ///< where the error enters, best description first
-  std::optional<Proposal> proposal;       ///< only where the verdict is unknown
-  std::vector<EffectFinding> effects;     ///< the set on which the verdict rests
-  std::vector<EffectFinding> candidates;  ///< all that were considered likely, most probable first
+  UnknownKind kind = UnknownKind::cannot_say;  ///< of the verdict unknown
+  std::vector<Alternative> alternatives;       ///< of an ambiguous gap, most probable first
+  std::string sentence;                        ///< the verdict for people
+  std::vector<WhereEntry> where;               ///< significant cells, strongest first
+  std::vector<WhereEntry> map;                 ///< every channel and regime, for the figure
+  std::vector<SourceFinding> sources;          ///< where the error enters, best description first
+  std::optional<Proposal> proposal;            ///< only where the verdict is unknown
+  std::vector<EffectFinding> effects;          ///< the set on which the verdict rests
+  std::vector<EffectFinding> candidates;       ///< all that were considered likely, most probable first
   Gap gap;
   std::vector<std::string> unexplained;  ///< structure that is left in the residuals
   std::vector<std::string> next;         ///< next steps: a manoeuvre, an effect to add

@@ -150,7 +150,7 @@ void search_apart(const DiagnosisProblem& problem, Diagnosis& answer) {
       std::all_of(answer.recordings.begin(), answer.recordings.end(), [&](const RecordingFinding& each) {
         return each.alone->effects == answer.recordings.front().alone->effects;
       });
-  if (alike || answer.verdict != Verdict::unknown) return;
+  if (alike || answer.verdict != Verdict::unknown || answer.kind == UnknownKind::ambiguous) return;
   std::vector<std::string> parts;
   for (const RecordingFinding& each : answer.recordings) {
     parts.push_back(fmt::format(

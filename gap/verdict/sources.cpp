@@ -29,7 +29,8 @@ SourceFinding finding_of(const SourceFit& fit, const std::vector<Covariate>& cov
                               {covariate.families.begin(), covariate.families.end()},
                               component.per_si * term.coefficient,
                               component.per_si * term.std_error,
-                              std::string(component.unit)});
+                              std::string(component.unit),
+                              std::abs(term.coefficient) / component.typical});
   }
   return finding;
 }
@@ -177,9 +178,20 @@ void add(std::vector<SourceFinding> findings, std::vector<SourceFinding>& all) {
   }
 }
 
-void sort_by_gain(std::vector<SourceFinding>& findings) {
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const SourceFinding& a, const SourceFinding& b) { return a.gain_nats > b.gain_nats; });
+/// Largest gain first; behind the others those that close nothing on a channel of their own.
+void sort_by_gain(Diagnosis& answer) {
+  for (SourceFinding& finding : answer.sources) {
+    const auto is_among = [&](const std::vector<WhereEntry>& cells) {
+      return std::any_of(finding.errors.begin(), finding.errors.end(), [&](const ErrorFinding& error) {
+        return std::any_of(cells.begin(), cells.end(),
+                           [&](const WhereEntry& cell) { return cell.channel == error.channel; });
+      });
+    };
+    finding.closes_nothing = !answer.where.empty() && is_among(answer.map) && !is_among(answer.where);
+  }
+  std::stable_sort(answer.sources.begin(), answer.sources.end(), [](const auto& a, const auto& b) {
+    return a.closes_nothing == b.closes_nothing ? a.gain_nats > b.gain_nats : b.closes_nothing;
+  });
 }
 
 }  // namespace
@@ -190,7 +202,7 @@ void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
   RecordingSources first(problem.prepared, problem, found);
   add(first.findings(), sources);
   for (const Prepared* other : problem.others) add(RecordingSources(*other, problem, found).findings(), sources);
-  sort_by_gain(sources);
+  sort_by_gain(answer);
   if (answer.verdict != Verdict::unknown || sources.empty()) return;
   // Close rivals are compared by their best descriptions.
   std::vector<std::vector<SourceFit>> descriptions;
@@ -202,7 +214,7 @@ void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
     SourceFinding full = first.finding(descriptions.back().back());
     if (full.gain_nats > sources[i].gain_nats) sources[i] = std::move(full);
   }
-  sort_by_gain(sources);
+  sort_by_gain(answer);
   const auto leader = std::find_if(descriptions.begin(), descriptions.end(), [&](const auto& fits) {
     return !fits.empty() && fits.front().source->name == sources.front().name;
   });
@@ -210,7 +222,9 @@ void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
 }
 
 void put_source_first(Diagnosis& answer) {
-  if (answer.sources.empty() || answer.sources.front().gain_nats < kObservable_nats) return;
+  if (answer.sources.empty() || answer.sources.front().gain_nats < kObservable_nats ||
+      answer.sources.front().closes_nothing)
+    return;
   const SourceFinding& source = answer.sources.front();
   const ErrorFinding& error = source.errors.front();
   if (error.channel.empty()) return;

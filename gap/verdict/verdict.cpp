@@ -56,18 +56,20 @@ void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
   }
 }
 
-/// Adds the missions or blocks on which the effects do not raise the likelihood enough.
-void add_held_out(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
+/// Adds the missions or blocks on which the effects do not raise the likelihood enough; true if they lower that of
+/// other missions. Blocks of one mission need not tell the same.
+bool add_held_out(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
   const auto& gains_nats = grounds.held_out_nats;
   const double altogether = std::accumulate(gains_nats.begin(), gains_nats.end(), 0.0);
   const auto worse =
       std::count_if(gains_nats.begin(), gains_nats.end(), [](double nats) { return nats < kHoldoutLoss_nats; });
-  if (worse == 0 && altogether >= kHoldoutGain_nats) return;
+  if (worse == 0 && altogether >= kHoldoutGain_nats) return false;
   const std::string_view parts = grounds.blocks ? "blocks of it that were left out" : "missions held out";
   reasons.push_back(worse == 0
                         ? fmt::format("{} explains this mission, but makes the fit of {} no better", set, parts)
                         : fmt::format("{} explains this mission, but makes the fit of {} of {} {} worse", set,
                                       worse, gains_nats.size(), parts));
+  return worse > 0 && !grounds.blocks;
 }
 
 /// Reason why a closure is not enough. Far below zero its value is meaningless, so only the direction is
@@ -104,9 +106,10 @@ void add_rivals(const Grounds& grounds, const std::string& set, std::vector<std:
   }
 }
 
-/// Adds effects that the mission hardly shows, and strengths that no cause has.
-void add_strengths(const Grounds& grounds, std::vector<std::string>& reasons) {
+/// Adds effects that the mission hardly shows, and strengths that no cause has; true for these.
+bool add_strengths(const Grounds& grounds, std::vector<std::string>& reasons) {
   const auto& best = grounds.found.best;
+  bool is_too_strong = false;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     const std::size_t effect = best.effects[i];
     const double size = strength_of(grounds.library, effect, best.mean);
@@ -119,6 +122,7 @@ void add_strengths(const Grounds& grounds, std::vector<std::string>& reasons) {
                                     grounds.library[effect].name));
     }
     if (size > kLargestStrength) {
+      is_too_strong = true;
       reasons.push_back(fmt::format(
           "{} would have to be {} times as strong as usual, which speaks for something "
           "else that looks like it",
@@ -126,6 +130,7 @@ void add_strengths(const Grounds& grounds, std::vector<std::string>& reasons) {
           size < kLargestReported ? fmt::format("{:.1f}", size) : fmt::format("over {:.0f}", kLargestReported)));
     }
   }
+  return is_too_strong;
 }
 
 }  // namespace
@@ -137,15 +142,18 @@ Judgement judge(const Grounds& grounds) {
   if (best.effects.empty()) {
     add_leftover(grounds, reasons);
     judgement.verdict = reasons.empty() ? Verdict::no_gap : Verdict::unknown;
+    judgement.kind = UnknownKind::outside;
     return judgement;
   }
   const std::string set = names(grounds.library, best.effects);
-  add_rivals(grounds, set, reasons);
-  add_held_out(grounds, set, reasons);
+  bool is_outside = add_held_out(grounds, set, reasons);
   if (!closes(grounds)) reasons.push_back(closure_words(grounds.closure, set));
-  add_strengths(grounds, reasons);
+  is_outside = add_strengths(grounds, reasons) || is_outside || !closes(grounds);
   add_leftover(grounds, reasons);
+  is_outside = is_outside || std::any_of(grounds.leftover.begin(), grounds.leftover.end(), is_left);
+  add_rivals(grounds, set, reasons);
   judgement.verdict = reasons.empty() ? Verdict::explained : Verdict::unknown;
+  judgement.kind = is_outside ? UnknownKind::outside : UnknownKind::cannot_say;
   const auto& candidates = grounds.found.candidates;
   const auto none = std::find_if(candidates.begin(), candidates.end(),
                                  [](const Candidate& candidate) { return candidate.effects.empty(); });

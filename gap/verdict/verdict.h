@@ -26,6 +26,8 @@ struct Grounds {
 struct Judgement {
   Verdict verdict = Verdict::unknown;
   std::vector<std::string> reasons;  ///< why the gap is not explained
+  /// Of the verdict unknown: outside, or cannot_say where every reason is a lack of evidence.
+  UnknownKind kind = UnknownKind::cannot_say;
 };
 
 /// Judges a diagnosis. A subset of effects explains a gap when it is clearly the most probable and leaves no

@@ -39,7 +39,11 @@ struct Searched {
 
   [[nodiscard]] gap::Diagnosis verdict() const {
     gap::Diagnosis answer;
-    write_verdict({library, bank, found, after, held_out}, answer);
+    write_verdict({library, bank, found, after, held_out,
+                   [](const CauseSet& set) {
+                     return gap::Closure{2, 1, 1, set[0] == 0 ? 0.98 : 0.95, {}};
+                   }},
+                  answer);
     return answer;
   }
 };
@@ -70,7 +74,8 @@ TEST(LayoutVerdict, WithoutACauseAndALouderChannelThereIsNoGap) {
   EXPECT_NE(searched.verdict().sentence.find("a faint lead of first of thruster.1"), std::string::npos);
   searched.found.sets = {{{}, 0, 0.99}, {{0}, -6, 0.01}};
   searched.after.of_channel[0] = 3;
-  expect_unknown(searched, "no effect of the library explains it");
+  expect_unknown(searched, "Outside the library: there is a gap");
+  EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::outside);
 }
 
 TEST(LayoutVerdict, CausesThatCannotBeToldApartAreOneAnswer) {
@@ -87,7 +92,14 @@ TEST(LayoutVerdict, CausesThatCannotBeToldApartAreOneAnswer) {
 TEST(LayoutVerdict, ACauseWithProbableRivalsIsNotNamed) {
   Searched searched;
   searched.found.sets[1].log_odds = 30;
-  expect_unknown(searched, "leads by 10 nats only");
+  expect_unknown(searched, "first of thruster.1 (probability 0.99, 98 % closed), or second of thruster.1");
+  const gap::Diagnosis answer = searched.verdict();
+  EXPECT_EQ(answer.kind, gap::UnknownKind::ambiguous);
+  ASSERT_EQ(answer.alternatives.size(), 2U);
+  EXPECT_EQ(answer.alternatives[1].closed, 0.95);
+  EXPECT_NE(answer.unexplained.at(0).find("leads by 10 nats only"), std::string::npos);
+  searched.after.mean_square = 1.4;
+  EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::outside) << "none of them describes the recording";
 }
 
 // Which set is the best is open; that the first cause belongs to it is not.

@@ -44,6 +44,23 @@ TEST(GapJson, SaysTheSmallestProbabilityOfTheMap) {
   EXPECT_TRUE(Json::parse(report::gap_json({}))["least_p_value"].is_null());
 }
 
+TEST(GapJson, SaysWhyAGapIsUnknown) {
+  EXPECT_FALSE(Json::parse(report::gap_json(test::explained_gap())).contains("kind"));
+  auto diagnosis = test::unknown_gap();
+  EXPECT_EQ(Json::parse(report::gap_json(diagnosis))["kind"], "cannot say");
+  EXPECT_EQ(Json::parse(report::gap_json(diagnosis))["alternatives"], Json::array());
+  diagnosis.kind = gap::UnknownKind::outside;
+  EXPECT_EQ(Json::parse(report::gap_json(diagnosis))["kind"], "outside");
+  diagnosis.kind = gap::UnknownKind::ambiguous;
+  diagnosis.alternatives = {{{diagnosis.candidates[0]}, 0.6, 0.98}, {{diagnosis.candidates[1]}, 0.4, {}}};
+  const Json json = Json::parse(report::gap_json(diagnosis));
+  EXPECT_EQ(json["kind"], "ambiguous");
+  EXPECT_EQ(keys_of(json["alternatives"][0]), (std::vector<std::string>{"effects", "probability", "closed"}));
+  EXPECT_EQ(json["alternatives"][0]["effects"][0]["name"], "motor_field");
+  EXPECT_EQ(json["alternatives"][0]["closed"], 0.98);
+  EXPECT_TRUE(json["alternatives"][1]["closed"].is_null());
+}
+
 TEST(GapJson, SaysWhereTheErrorEntersAndDescribesWhatIsUnknown) {
   EXPECT_EQ(Json::parse(report::gap_json(test::explained_gap()))["sources"], Json::array());
   EXPECT_TRUE(Json::parse(report::gap_json(test::explained_gap()))["proposal"].is_null());

@@ -74,6 +74,7 @@ TEST(GapPage, ShowsWhereWhatAndHowMuch) {
 
 TEST(GapPage, AnUnknownGapNamesNoCause) {
   auto diagnosis = test::unknown_gap();
+  diagnosis.kind = gap::UnknownKind::outside;
   diagnosis.candidates.front().probability = 1;
   const std::string page = report::gap_page(diagnosis, gap_source());
   EXPECT_EQ(page.find("99.9 %"), std::string::npos) << "a share of what explains nothing is no certainty";

@@ -120,11 +120,22 @@ TEST(GapText, SaysWhereTheErrorEnters) {
 
 TEST(GapText, CandidatesOfAnUnknownGapHaveNoProbability) {
   auto diagnosis = test::unknown_gap();
+  diagnosis.kind = gap::UnknownKind::outside;
   diagnosis.candidates.front().probability = 1;
   const std::string text = report::gap_text(diagnosis, gap_source());
   EXPECT_TRUE(says(text, "none of them explains the recording")) << text;
   EXPECT_FALSE(says(text, "99.9 %")) << text;
   EXPECT_TRUE(says(text, "motor_field")) << text;
+}
+
+TEST(GapText, AnAmbiguousGapShowsEachSet) {
+  auto diagnosis = test::unknown_gap();
+  diagnosis.kind = gap::UnknownKind::ambiguous;
+  diagnosis.alternatives = {{{diagnosis.candidates[0]}, 0.6, 0.98}, {{diagnosis.candidates[1]}, 0.4, {}}};
+  const std::string text = report::gap_text(diagnosis, gap_source());
+  EXPECT_TRUE(says(text, "either           Each of these sets of effects explains the recording.")) << text;
+  EXPECT_TRUE(says(text, "or               motor_field, 62.0 %")) << text;
+  EXPECT_FALSE(says(text, "not convincing")) << text;
 }
 
 TEST(GapWords, AGapThatGrowsIsToldWithoutDigits) {

@@ -247,6 +247,31 @@ TEST(WriteWords, OfAnUnknownGapAdviseTheManoeuvresOfLikelyCandidates) {
   EXPECT_EQ(answer.unexplained.size(), 2U);
 }
 
+TEST(WriteWords, OfAnAmbiguousGapNameTheSetsAndWhatDecides) {
+  Diagnosis answer;
+  answer.alternatives = {{{finding("hard_iron", 0.6)}, 0.6, 0.98}, {{finding("motor_field", 0.4)}, 0.4, {}}};
+  answer.alternatives[1].effects.push_back(answer.alternatives[0].effects[0]);
+  write_unknown(UnknownKind::ambiguous, "", answer);
+  EXPECT_EQ(
+      answer.sentence,
+      "Ambiguous: there is a gap, and hard_iron (probability 0.60, 98 % closed), or motor_field and hard_iron "
+      "(probability 0.40) explains it.");
+  EXPECT_EQ(answer.next, std::vector<std::string>{"to decide between hard_iron and motor_field + hard_iron: the "
+                                                  "manoeuvre of motor_field"});
+}
+
+TEST(WriteWords, OutsideAndCannotSayAreTold) {
+  Diagnosis answer;
+  write_unknown(UnknownKind::outside, "hard_iron closes 3 %", answer);
+  EXPECT_TRUE(says(answer.sentence, "Outside the library: there is a gap")) << answer.sentence;
+  EXPECT_TRUE(says(answer.sentence, "explain it: hard_iron closes 3 %.")) << answer.sentence;
+  write_unknown(UnknownKind::cannot_say, "GPS is missing", answer);
+  EXPECT_EQ(answer.sentence, "Whether there is a gap cannot be said: GPS is missing.");
+  answer.gap.pooled.closed = 0.1;
+  write_unknown(UnknownKind::cannot_say, "GPS is missing", answer);
+  EXPECT_EQ(answer.sentence, "The cause cannot be said: GPS is missing.");
+}
+
 TEST(WriteWords, WithoutALikelyCandidateANewEffectIsAdvised) {
   for (const double probability : {0.0, 0.19}) {
     Diagnosis answer;

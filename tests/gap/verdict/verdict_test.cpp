@@ -44,6 +44,10 @@ class Case {
     }
     return text;
   }
+  [[nodiscard]] UnknownKind kind(double closed, std::vector<double> held_out_nats, bool blocks) const {
+    const PooledClosure closure{2, 1.5, 1, true, closed, closed - 0.1, closed};
+    return judge({found_, library_, where_, nothing_, std::move(held_out_nats), closure, closure, blocks}).kind;
+  }
   [[nodiscard]] Verdict verdict(double closed_upper, double closed_by_all_upper) const {
     const PooledClosure alone{2, 1.5, 1, true, closed_upper - 0.1, closed_upper - 0.2, closed_upper};
     const PooledClosure by_all{
@@ -65,6 +69,17 @@ TEST(Verdict, AnEffectThatClosesTheGapExplainsIt) {
 TEST(Verdict, WhatIsLeftMayBeTolerancesIfThoseFoundForetellIt) {
   EXPECT_EQ(Case(1).verdict(0.3, 0.99), Verdict::explained);
   EXPECT_EQ(Case(1).verdict(0.3, 0.6), Verdict::unknown) << "something outside the library is at work";
+}
+
+TEST(Verdict, WhatSpeaksAgainstTheLibraryIsToldFromALackOfEvidence) {
+  EXPECT_EQ(Case(1).kind(0.3, {20, 20}, false), UnknownKind::outside) << "it does not close the gap";
+  EXPECT_EQ(Case(9).kind(0.99, {20, 20}, false), UnknownKind::outside) << "no cause is as strong";
+  EXPECT_EQ(Case(1).kind(0.99, {20, -20}, false), UnknownKind::outside) << "a held-out mission is worse";
+  EXPECT_EQ(Case(1).kind(0.99, {20, -20}, true), UnknownKind::cannot_say) << "minutes differ";
+  EXPECT_EQ(Case(1, 0.5).kind(0.99, {20, 20}, false), UnknownKind::cannot_say) << "it hardly shows";
+  Case rivals(1);
+  rivals.set_probabilities(0.6, 0);
+  EXPECT_EQ(rivals.kind(0.99, {20, 20}, false), UnknownKind::cannot_say);
 }
 
 // On a steady turn gyro_cross_axis was named that closed 1 % of the gap; fin_gain of 43 % of its usual strength,
