@@ -43,8 +43,10 @@ CalibrateRun::CalibrateRun(const config::Settings& settings, CalibrateHistory* h
       sink_(history != nullptr ? static_cast<pipeline::Sink&>(*history) : nobody()),
       pipeline_(std::make_unique<pipeline::Pipeline>(settings_)) {}
 
-void CalibrateRun::play(const std::string& file, const record::Progress& progress) {
-  const auto recording = record::Recording::open(file);
+void CalibrateRun::play(const std::string& file, const record::Progress& progress,
+                        const record::TimeWindow& window) {
+  if (!seen_.is_new(file, remarks_)) return;
+  const auto recording = record::Recording::open(file, window);
   const record::PortMatch ports(recording->settings(), settings_);
   for (const auto& port : ports.missing()) remarks_.push_back(missing_port_remark(file, port));
   file_begins_ = true;

@@ -13,6 +13,7 @@
 #include "record/log/log_info.h"
 #include "record/port_matching.h"
 #include "record/recording.h"
+#include "record/seen_recordings.h"
 
 namespace navcal::analysis {
 
@@ -28,7 +29,8 @@ class CalibrateRun {
   /// `progress` gets the share of the file that was read, 0 to 1; what it throws ends the run. Throws
   /// record::BadRecording.
   void play(
-      const std::string& file, const record::Progress& progress = [](double) {});
+      const std::string& file, const record::Progress& progress = [](double) {},
+      const record::TimeWindow& window = {});
   /// No more files come.
   [[nodiscard]] calib::Report finish();
 
@@ -52,6 +54,7 @@ class CalibrateRun {
   std::int64_t newest_ns_ = 0;
   std::int64_t duration_ns_ = 0;
   std::vector<std::string> remarks_;
+  record::SeenRecordings seen_;
 };
 
 }  // namespace navcal::analysis

@@ -35,6 +35,7 @@ void SurfacingRun::begin_file(std::int64_t time_ns) {
 }
 
 void SurfacingRun::play(const std::string& file) {
+  if (!seen_.is_new(file, remarks_)) return;
   file_ = file;
   const auto recording = record::Recording::open(file);
   const auto ports = match_ports(recording->settings(), settings_, file);

@@ -9,6 +9,7 @@
 
 #include "config/settings.h"
 #include "pipeline/pipeline.h"
+#include "record/seen_recordings.h"
 
 namespace navcal::analysis {
 
@@ -46,6 +47,7 @@ class SurfacingRun final : private pipeline::Sink {
   std::int64_t newest_ns_ = 0;
   std::vector<RecordedSurfacing> surfacings_;
   std::vector<std::string> remarks_;
+  record::SeenRecordings seen_;
 };
 
 }  // namespace navcal::analysis

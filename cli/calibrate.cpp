@@ -8,7 +8,9 @@
 #include "analysis/calibrate_run.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/result_file.h"
+#include "cli/window_options.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
 #include "report/calibrate_page.h"
@@ -17,13 +19,14 @@
 namespace navcal::cli {
 namespace {
 
-struct CalibrateCommandOptions {
+struct CalibrateCommandOptions : WindowOptions {
   std::vector<std::string> files;
   std::string config, report;
   bool json = false;
 };
 
 void calibrate(const CalibrateCommandOptions& options) {
+  const record::TimeWindow window = options.window();
   if (!options.report.empty()) expect_folder_of(options.report);
   std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
   inputs.emplace_back(options.config);
@@ -35,7 +38,8 @@ void calibrate(const CalibrateCommandOptions& options) {
   analysis::CalibrateRun run(settings, history ? &*history : nullptr);
   for (const std::string& file : options.files) {
     analysis::Progress progress("calibrate");
-    run.play(file, [&progress](double share) { progress.show(share); });
+    run.play(
+        file, [&progress](double share) { progress.show(share); }, window);
   }
   const calib::Report report = run.finish();
   tell_remarks("navcal", run.remarks());
@@ -66,6 +70,7 @@ void add_calibrate(CLI::App& app) {
                    "logs (.mcap) or captures (.cap) in order of time; one series, or several recordings")
       ->required();
   command->add_option("--config", options->config, "configuration to use instead of the recording's own");
+  add_window(*command, *options);
   command->add_flag("--json", options->json, "one JSON object instead of text");
   command->add_option("--report", options->report, "page to write, with pictures; needs no other file")
       ->option_text("FILE.html");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,7 @@
 #include "diagnosis/diagnose_layout.h"
 #include "gap/verdict/request.h"
 #include "record/recording.h"
+#include "record/seen_recordings.h"
 #include "report/gap_effects_file.h"
 #include "report/gap_from_json.h"
 #include "report/gap_json.h"
@@ -40,7 +42,7 @@ namespace {
 struct GapCommandOptions : GapRequestOptions {
   std::vector<std::string> nominals;
   std::string json, report;
-  std::string saved;  ///< diagnosis to read instead of making one
+  std::string saved;  ///< diagnosis to read instead of making one: --from without a recording
   ExportOptions exports;
 
   /// File of the diagnosis: the recording, or the saved one.
@@ -61,15 +63,25 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (options.bank_missions != gap::Request{}.bank_missions)
     throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
-                               .holdouts = {options.source.holdouts.begin(), options.source.holdouts.end()},
-                               .nominals = {options.nominals.begin(), options.nominals.end()},
-                               .settings = {}};
+                               .holdouts = {},
+                               .nominals = {},
+                               .settings = {},
+                               .window = options.window()};
+  record::SeenRecordings seen;
+  std::vector<std::string> repeated;
+  (void)seen.see(files.recording);
+  for (const auto& [given, to] :
+       {std::pair{&options.source.holdouts, &files.holdouts}, {&options.nominals, &files.nominals}})
+    std::copy_if(given->begin(), given->end(), std::back_inserter(*to),
+                 [&](const std::string& file) { return seen.is_new(file, repeated); });
   if (!options.source.config.empty()) files.settings = config::load(options.source.config);
   diagnosis::LayoutRequest request{.layout = layout, .excluded = options.source.excluded};
   request.seed = options.bank_seed;
   analysis::Progress progress("gap", analysis::Progress::Answer::at_the_end);
   const auto show = [&](std::string_view what, double done) { progress.show(what, done); };
-  return diagnosis::diagnose(request, diagnosis::load(files, show), show);
+  gap::Diagnosis answer = diagnosis::diagnose(request, diagnosis::load(files, show), show);
+  answer.remarks.insert(answer.remarks.end(), repeated.begin(), repeated.end());
+  return answer;
 }
 
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
@@ -145,18 +157,14 @@ void find_gap(const GapCommandOptions& options) {
   });
 }
 
-/// Adds the options by which found effects become files for simulators, also of a diagnosis that is saved.
-void add_exports(CLI::App* command, CLI::Option* mission, GapCommandOptions& options) {
-  add_export_options(command, options.exports);
-  auto* const saved =
-      command
-          ->add_option("--from", options.saved,
-                       "a diagnosis that --json wrote, instead of a recording; for --export and --effects-out")
-          ->option_text("FILE.json")
-          ->excludes(mission);
+/// A saved diagnosis is there to be exported. Throws CLI::ParseError.
+void expect_export(const CLI::App& command, const GapCommandOptions& options) {
+  if (options.exports.wanted.empty() && options.source.effects_file.empty())
+    throw CLI::RequiredError("--from: --export or --effects-out");
   for (const char* other :
-       {"--holdout", "--field", "--exclude", "--json", "--report", "--bank", "--seed", "--cache"})
-    saved->excludes(command->get_option(other));
+       {"--holdout", "--field", "--exclude", "--json", "--report", "--bank", "--seed", "--cache", "--to"}) {
+    if (command.count(other) > 0) throw CLI::ExcludesError("--from", other);
+  }
 }
 
 }  // namespace
@@ -166,7 +174,7 @@ void add_gap(CLI::App& app) {
       "gap", "diagnosis of the gap between a recording and the model: where, from which effect, how much");
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
-  auto* const mission = add_gap_request(*command, *options);
+  add_gap_request(*command, *options);
   command
       ->add_option(
           "--nominal", options->nominals,
@@ -180,7 +188,7 @@ void add_gap(CLI::App& app) {
       ->option_text("FILE.html");
   command->add_option("--effects-out", source.effects_file, "the effects found, for navcal simulate --effects")
       ->option_text("FILE.toml");
-  add_exports(command, mission, *options);
+  add_export_options(command, options->exports);
   command->footer(
       "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"
       "Examples:\n"
@@ -194,9 +202,9 @@ void add_gap(CLI::App& app) {
   for (const char* const name : {"layouts", "trial"}) command->get_subcommand(name)->group("");
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;
+    if (options->source.missions.empty()) options->saved = options->from;
     if (options->origin().empty()) throw CLI::RequiredError("FILE");
-    if (!options->saved.empty() && options->exports.wanted.empty() && options->source.effects_file.empty())
-      throw CLI::RequiredError("--from: --export or --effects-out");
+    if (!options->saved.empty()) expect_export(*command, *options);
     find_gap(*options);
   });
 }

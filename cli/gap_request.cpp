@@ -63,6 +63,7 @@ gap::Request gap_request_of(const GapRequestOptions& options) {
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
   if (!options.source.config.empty()) request.settings = config::load(options.source.config);
   request.excluded = options.source.excluded;
+  request.window = options.window();
   for (const std::string& name : options.without) {
     const auto quantities = gap::quantities_named(name);
     request.without.insert(request.without.end(), quantities.begin(), quantities.end());
@@ -74,11 +75,15 @@ gap::Request gap_request_of(const GapRequestOptions& options) {
   return request;
 }
 
-CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options) {
+void add_gap_request(CLI::App& command, GapRequestOptions& options) {
   auto& source = options.source;
-  auto* const mission = command.add_option("FILE", source.missions,
-                                           "the mission to be diagnosed: a capture (.cap) or a log (.mcap); "
-                                           "several of one vehicle are diagnosed together");
+  command.add_option("FILE", source.missions,
+                     "the mission to be diagnosed: a capture (.cap) or a log (.mcap); "
+                     "several of one vehicle are diagnosed together");
+  add_window(command, options,
+             command.get_name() == "gap"
+                 ? ". Without FILE: a diagnosis that --json wrote, for --export and --effects-out"
+                 : "");
   command
       .add_option("--holdout", source.holdouts,
                   "another mission of the same vehicle, on which the answer is judged; repeatable")
@@ -118,7 +123,6 @@ CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options) {
   command.add_option("--cache", options.cache, "folder in which they are kept; default: ~/.cache/navcal")
       ->option_text("DIR")
       ->group(bank);
-  return mission;
 }
 
 }  // namespace navcal::cli

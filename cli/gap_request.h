@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/place_arguments.h"
+#include "cli/window_options.h"
 #include "config/layout.h"
 #include "gap/verdict/request.h"
 #include "report/gap_words.h"
@@ -16,7 +17,7 @@
 namespace navcal::cli {
 
 /// Options that every command has which diagnoses recordings.
-struct GapRequestOptions {
+struct GapRequestOptions : WindowOptions {
   report::GapSource source;
   analysis::PlaceArguments where;
   std::vector<std::string> without;
@@ -25,8 +26,7 @@ struct GapRequestOptions {
   std::uint64_t bank_seed = gap::Request{}.bank_seed;
 };
 
-/// Adds them; the answer is the positional option of the recordings.
-CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options);
+void add_gap_request(CLI::App& command, GapRequestOptions& options);
 
 /// Where the user's null banks are, after the XDG base directories; empty when there is no such place.
 [[nodiscard]] std::filesystem::path usual_cache();

@@ -10,6 +10,7 @@
 #include "cli/exit_statuses.h"
 #include "cli/recorded_motions.h"
 #include "cli/result_file.h"
+#include "cli/window_options.h"
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "identify/answer/identification.h"
@@ -18,7 +19,7 @@
 namespace navcal::cli {
 namespace {
 
-struct IdentifyCommandOptions {
+struct IdentifyCommandOptions : WindowOptions {
   std::string vehicle, output, json, report, config;
   std::vector<std::string> files, held_out;
   bool no_advice = false;
@@ -32,14 +33,16 @@ std::vector<std::filesystem::path> inputs_of(const IdentifyCommandOptions& optio
 }
 
 identify::Identification identification_of(const IdentifyCommandOptions& options) {
+  const record::TimeWindow window = options.window();
   identify::IdentifyRequest request;
   request.prior = config::load_layout(options.vehicle);
   std::optional<config::Settings> settings;
   if (!options.config.empty()) settings = config::load(options.config);
   request.advise = !options.no_advice;
   analysis::Progress progress("identify", analysis::Progress::Answer::at_the_end);
-  request.recordings = load_motions(options.files, settings, progress);
-  request.held_out = load_motions(options.held_out, settings, progress);
+  record::SeenRecordings seen;
+  request.recordings = load_motions(options.files, settings, progress, seen, window);
+  request.held_out = load_motions(options.held_out, settings, progress, seen, window);
   return identify::identify(request, [&](std::string_view what, double done) { progress.show(what, done); });
 }
 
@@ -88,6 +91,7 @@ void add_identify(CLI::App& app) {
       ->option_text("FILE.html");
   command->add_option("--config", options->config, "configuration of all recordings, instead of their own")
       ->option_text("FILE.toml");
+  add_window(*command, *options);
   command->add_flag("--no-advice", options->no_advice, "do not look for manoeuvres that would tell more");
   command->footer(
       "docs/identify.md describes the method, the file and the JSON keys.\n\n"

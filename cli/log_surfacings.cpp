@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/failure.h"
 #include "analysis/surfacing_run.h"
 #include "base/printable.h"
+#include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"
@@ -24,24 +24,18 @@ struct SurfacingsOptions {
   bool json = false;
 };
 
-analysis::SurfacingRun run_surfacings(const SurfacingsOptions& options) {
-  const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
-                                               : config::load(options.config);
-  analysis::SurfacingRun run(settings);
-  for (const auto& file : options.files) run.play(file);
-  return run;
-}
-
 void show_surfacings(const SurfacingsOptions& options) {
   if (!options.page.empty()) {
     expect_folder_of(options.page);
     expect_no_overwriting({options.files.begin(), options.files.end()}, {options.page});
   }
-  const analysis::SurfacingRun run = run_surfacings(options);
+  const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
+                                               : config::load(options.config);
+  analysis::SurfacingRun run(settings);
+  for (const auto& file : options.files) run.play(file);
   tell_remarks("navcal log", run.remarks());
-  if (!options.page.empty()) {
+  if (!options.page.empty())
     write_result(options.page, report::surfacings_page(run.surfacings(), options.files, run.settings()));
-  }
   const std::string text = options.json ? report::surfacings_json(run.surfacings(), options.files)
                                         : report::surfacings_text(run.surfacings());
   std::fputs(text.c_str(), stdout);
@@ -64,7 +58,7 @@ void add_log_surfacings(CLI::App& log) {
   command->footer(
       "docs/surfacing.md describes the table and the JSON keys.\n\n"
       "Example: navcal log surfacings --report surfacings.html dive.mcap");
-  command->callback([options] { show_surfacings(*options); });
+  command->callback([options] { with_exit_statuses([&] { show_surfacings(*options); }); });
 }
 
 }  // namespace navcal::cli

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include "analysis/noise/noise_run.h"
 #include "analysis/noise/noise_settings.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"

@@ -77,8 +77,9 @@ identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
   std::optional<config::Settings> settings;
   if (!arguments.config.empty()) settings = config::load(arguments.config);
   analysis::Progress progress("vehicle predict", analysis::Progress::Answer::at_the_end);
-  request.recordings = load_motions(arguments.files, settings, progress);
-  request.fit = load_motions(arguments.fit, settings, progress);
+  record::SeenRecordings seen;
+  request.recordings = load_motions(arguments.files, settings, progress, seen);
+  request.fit = load_motions(arguments.fit, settings, progress, seen);
   return identify::predict(request, [&](double done) { progress.show("predicting", done); });
 }
 

@@ -92,7 +92,8 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
 LayoutRecordings load(const LayoutFiles& files, const LayoutProgress& progress) {
   const auto one = [&](const std::filesystem::path& file) {
     return identify::load_motion(
-        file, [&](double done) { progress("reading " + file.filename().string(), done); }, files.settings);
+        file, [&](double done) { progress("reading " + file.filename().string(), done); }, files.settings,
+        files.window);
   };
   LayoutRecordings recordings{one(files.recording), {}, {}};
   for (const auto& file : files.holdouts) recordings.holdouts.push_back(one(file));

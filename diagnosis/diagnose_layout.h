@@ -36,6 +36,7 @@ struct LayoutFiles {
   std::filesystem::path recording;
   std::vector<std::filesystem::path> holdouts, nominals;
   std::optional<config::Settings> settings;  ///< of all recordings, instead of their own
+  record::TimeWindow window{};               ///< the part of all recordings that counts
 };
 
 /// Gets the current step and the share of it that is done (0 to 1); may throw to end the work.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recording.h"
 
+#include <cmath>
+#include <cstdlib>
+#include <deque>
+
+#include "config/csv_map.h"
 #include "record/capture/capture_recording.h"
 #include "record/log/log_recording.h"
 #include "record/log/mcap_format.h"
@@ -50,13 +55,52 @@ std::unique_ptr<ByteSource> open_recording(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace
+class CutRecording final : public Recording {
+ public:
+  CutRecording(std::unique_ptr<Recording> whole, const TimeWindow& window)
+      : whole_(std::move(whole)), window_(window) {}
+  [[nodiscard]] const config::Settings& settings() const override { return whole_->settings(); }
+  [[nodiscard]] const std::vector<std::string>& remarks() const override { return whole_->remarks(); }
+  [[nodiscard]] double progress() const override { return whole_->progress(); }
+  std::optional<Entry> next() override {
+    while (ready_.empty()) {
+      auto entry = whole_->next();
+      if (!entry) return std::nullopt;
+      if (const auto* change = std::get_if<MappingChange>(&*entry)) utc_offset_ns_ = change->mapping.offset_ns;
+      const auto* raw = std::get_if<RawRead>(&*entry);
+      if (raw != nullptr) {
+        if (!start_ns_) start_ns_ = raw->time_ns;
+        if (window_.from && is_before(raw->time_ns, *window_.from)) continue;
+        if (window_.to && !is_before(raw->time_ns, *window_.to)) return std::nullopt;
+        for (Entry& before : held_) {
+          std::visit([&](auto& one) { one.time_ns = raw->time_ns; }, before);
+          ready_.push_back(std::move(before));
+        }
+        held_.clear();
+        is_inside_ = true;
+      }
+      (is_inside_ ? ready_ : held_).push_back(std::move(*entry));
+    }
+    Entry first = std::move(ready_.front());
+    ready_.pop_front();
+    return first;
+  }
 
-bool is_log(const std::filesystem::path& file) {
-  return peek(*open_recording(file), kMcapMagic.size()) == kMcapMagic;
-}
+ private:
+  [[nodiscard]] bool is_before(std::int64_t time_ns, const TimeBound& bound) const {
+    if (bound.utc_ns) return time_ns + utc_offset_ns_ < *bound.utc_ns;
+    return static_cast<double>(time_ns - *start_ns_) * 1e-9 < bound.since_start_s;
+  }
 
-std::unique_ptr<Recording> Recording::open(const std::filesystem::path& file) {
+  std::unique_ptr<Recording> whole_;
+  TimeWindow window_;
+  std::deque<Entry> ready_, held_;
+  std::optional<std::int64_t> start_ns_;
+  std::int64_t utc_offset_ns_ = 0;
+  bool is_inside_ = false;
+};
+
+std::unique_ptr<Recording> open_whole(const std::filesystem::path& file) {
   auto source = open_recording(file);
   constexpr std::string_view kCapture = "#capture";
   const std::string begin = peek(*source, kCapture.size());
@@ -66,6 +110,26 @@ std::unique_ptr<Recording> Recording::open(const std::filesystem::path& file) {
   throw BadRecording(
       file.string() +
       ": neither a capture (\"#capture 1\") nor a log (MCAP); \"navcal log import\" reads those of other systems");
+}
+
+}  // namespace
+
+std::optional<TimeBound> parse_time_bound(const std::string& text) {
+  if (const auto utc_ns = config::parse_iso_time(text)) return TimeBound{0, utc_ns};
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(seconds >= 0) || std::isinf(seconds)) return std::nullopt;
+  return TimeBound{seconds, {}};
+}
+
+bool is_log(const std::filesystem::path& file) {
+  return peek(*open_recording(file), kMcapMagic.size()) == kMcapMagic;
+}
+
+std::unique_ptr<Recording> Recording::open(const std::filesystem::path& file, const TimeWindow& window) {
+  auto whole = open_whole(file);
+  if (!window.from && !window.to) return whole;
+  return std::make_unique<CutRecording>(std::move(whole), window);
 }
 
 }  // namespace navcal::record

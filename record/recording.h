@@ -49,14 +49,28 @@ struct MappingChange {
 
 using Entry = std::variant<RawRead, MappingChange, LoggedEvent, LoggedCommand, pipeline::CalibrationChange>;
 
+/// A time in seconds from the first read, or in UTC.
+struct TimeBound {
+  double since_start_s = 0;
+  std::optional<std::int64_t> utc_ns{};
+};
+/// Of "12.5" or "2026-01-01T00:00:12Z"; nullopt: neither.
+[[nodiscard]] std::optional<TimeBound> parse_time_bound(const std::string& text);
+
+/// Part of a recording; without a bound to its end.
+struct TimeWindow {
+  std::optional<TimeBound> from{}, to{};
+};
+
 /// Whether a file begins as a log does. Throws BadRecording when it cannot be read.
 [[nodiscard]] bool is_log(const std::filesystem::path& file);
 
 /// Capture (.cap) or log (.mcap), told apart by content, read in order and in constant memory.
 class Recording {
  public:
-  /// Throws BadRecording when it is neither.
-  static std::unique_ptr<Recording> open(const std::filesystem::path& file);
+  /// Reads outside the window are left out; what else was recorded before it comes at its begin. Throws
+  /// BadRecording when the file is neither.
+  static std::unique_ptr<Recording> open(const std::filesystem::path& file, const TimeWindow& window = {});
   virtual ~Recording() = default;
 
   /// The ports of the recording: from the #port lines, or from the configuration stored in the log.

@@ -18,8 +18,9 @@ class Nobody final : public pipeline::Sink {
 }  // namespace
 
 calib::Report instruments_alone(const std::filesystem::path& file, const std::optional<config::Settings>& stated,
-                                const EarthField& field, const std::function<void(double)>& progress) {
-  const auto recording = record::Recording::open(file);
+                                const EarthField& field, const std::function<void(double)>& progress,
+                                const record::TimeWindow& window) {
+  const auto recording = record::Recording::open(file, window);
   config::Settings settings = stated.value_or(recording->settings());
   const record::PortMatch ports(recording->settings(), settings);
   settings.calibration.enabled = settings.calibration.automatic = true;

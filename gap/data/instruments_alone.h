@@ -8,6 +8,7 @@
 #include "calib/suite/report.h"
 #include "config/settings.h"
 #include "gap/data/earth_field.h"
+#include "record/recording.h"
 
 namespace navcal::gap {
 
@@ -18,7 +19,7 @@ namespace navcal::gap {
 /// Throws record::BadRecording.
 [[nodiscard]] calib::Report instruments_alone(const std::filesystem::path& file,
                                               const std::optional<config::Settings>& stated,
-                                              const EarthField& field,
-                                              const std::function<void(double)>& progress);
+                                              const EarthField& field, const std::function<void(double)>& progress,
+                                              const record::TimeWindow& window = {});
 
 }  // namespace navcal::gap

@@ -303,8 +303,8 @@ config::Settings samples_only(config::Settings settings) {
 }
 
 Mission load_mission(const std::filesystem::path& file, const std::function<void(double)>& progress,
-                     const std::optional<config::Settings>& stated) {
-  const auto recording = record::Recording::open(file);
+                     const std::optional<config::Settings>& stated, const record::TimeWindow& window) {
+  const auto recording = record::Recording::open(file, window);
   const config::Settings& settings = stated ? *stated : recording->settings();
   expect_instruments_at_origin(settings, file);
   const record::PortMatch ports(recording->settings(), settings);

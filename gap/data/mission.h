@@ -16,6 +16,7 @@
 #include "gap/data/silence.h"
 #include "instruments/samples.h"
 #include "pipeline/pipeline.h"
+#include "record/recording.h"
 #include "sim/state.h"
 
 namespace navcal::gap {
@@ -149,8 +150,10 @@ class MissionGatherer final : public pipeline::Sink {
 [[nodiscard]] config::Settings samples_only(config::Settings settings);
 
 /// Reads a log or a capture through the pipeline. `stated`: the configuration to use instead of the recording's
-/// own; ports that it lacks are left out, with a remark. `progress` gets 0 to 1. Throws record::BadRecording.
+/// own; ports that it lacks are left out, with a remark. `window`: the part to read. `progress` gets 0 to 1.
+/// Throws record::BadRecording.
 [[nodiscard]] Mission load_mission(const std::filesystem::path& file, const std::function<void(double)>& progress,
-                                   const std::optional<config::Settings>& stated = std::nullopt);
+                                   const std::optional<config::Settings>& stated = std::nullopt,
+                                   const record::TimeWindow& window = {});
 
 }  // namespace navcal::gap

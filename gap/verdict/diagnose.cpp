@@ -353,7 +353,7 @@ void say_without_causes(const Request& request, const Progress& progress, const 
   answer.sentence = fmt::format("The causes of a gap cannot be found: {}.", why);
   calib::Report report = instruments_alone(
       request.missions.front(), request.settings, answer.field.value_or(EarthField{}),
-      [&](double done) { progress("comparing the instruments with each other", done); });
+      [&](double done) { progress("comparing the instruments with each other", done); }, request.window);
   if (!report.calibrators.empty()) answer.instruments_alone = std::move(report);
 }
 

@@ -20,28 +20,30 @@ Preparation::Preparation(const Request& request, const Library& library, const P
     : request_(request), library_(library), progress_(progress), threads_(threads),
       cache_(request.cache, request.vehicle, library) {}
 
-void Preparation::expect_other_content(const std::string& name, const Mission& mission, bool is_held_out) {
-  SharedContent content(mission);
-  for (const auto& [other, before] : contents_) {
-    const double shared_s = content.shared_s(before);
-    if (!(shared_s > 0)) continue;
-    throw std::invalid_argument(
-        fmt::format("{}{}: {:.0f} s of it are in {} as well. {}", is_held_out ? "--holdout " : "", name,
-                    std::max(shared_s, 1.0), other,
-                    is_held_out ? "An answer can only be checked on a recording of another mission."
-                                : "Recordings that are diagnosed together must be of different missions."));
-  }
-  contents_.emplace_back(name, std::move(content));
+bool Preparation::is_new(const std::filesystem::path& file, Diagnosis& answer) {
+  const auto is_held_out = [&](const std::filesystem::path& path) {
+    return std::find(request_.holdouts.begin(), request_.holdouts.end(), path) != request_.holdouts.end();
+  };
+  const auto repetition = seen_.see(file);
+  if (!repetition) return true;
+  const std::string shared = fmt::format("{}: {:.0f} s of it are in {} as well", file.filename().string(),
+                                         repetition->shared_s, repetition->of.filename().string());
+  if (is_held_out(file) != is_held_out(repetition->of))
+    throw std::invalid_argument("--holdout " + shared +
+                                ". An answer can only be checked on a recording of another mission.");
+  if (!repetition->is_whole)
+    throw std::invalid_argument(shared +
+                                ". Recordings that are diagnosed together must be of different missions.");
+  answer.remarks.push_back(shared + ", so it is left out: a recording counts once");
+  return false;
 }
 
 std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file, Diagnosis& answer) {
+  if (!is_new(file, answer)) return nullptr;
   auto prepared = std::make_unique<Prepared>();
   const std::string name = file.filename().string();
   prepared->mission = load_mission(
-      file, [&](double done) { progress_("reading " + name, done); }, request_.settings);
-  const auto& held_out = request_.holdouts;
-  expect_other_content(name, prepared->mission,
-                       std::find(held_out.begin(), held_out.end(), file) != held_out.end());
+      file, [&](double done) { progress_("reading " + name, done); }, request_.settings, request_.window);
   if (!request_.without.empty()) leave_out(request_.without, prepared->mission);
   if (request_.field_uT) prepared->mission.field.set_given(*request_.field_uT);
   if (!answer.field) answer.field = prepared->mission.field;

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "gap/actuators/command_check.h"
-#include "gap/data/shared_content.h"
 #include "gap/inference/linearised.h"
 #include "gap/nulls/bank_cache.h"
 #include "gap/nulls/null_bank.h"
 #include "gap/replay/replay.h"
 #include "gap/verdict/diagnosis.h"
 #include "gap/verdict/request.h"
+#include "record/seen_recordings.h"
 
 namespace navcal::gap {
 
@@ -49,7 +49,9 @@ class Preparation {
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
 
  private:
-  void expect_other_content(const std::string& name, const Mission& mission, bool is_held_out);
+  /// False for a repetition of a recording of the same kind, with a remark. Throws std::invalid_argument for any
+  /// other stretch that two recordings share.
+  bool is_new(const std::filesystem::path& file, Diagnosis& answer);
   /// Remarks on silent instruments and on commands; the facts of the first recording stand in `answer`.
   void remark_on(const Prepared& prepared, const std::string& name, Diagnosis& answer) const;
   /// Whether the commands, without reports, say what the vehicle did.
@@ -63,7 +65,7 @@ class Preparation {
   const Progress& progress_;
   unsigned threads_;
   BankCache cache_;
-  std::vector<std::pair<std::string, SharedContent>> contents_;  ///< of the recordings read, by file name
+  record::SeenRecordings seen_;
 };
 
 }  // namespace navcal::gap

@@ -24,6 +24,7 @@ struct Request {
   std::vector<std::filesystem::path> holdouts;  ///< other missions of the same vehicle; may be none
   config::VehicleSettings vehicle;              ///< the nominal one
   std::optional<config::Settings> settings;     ///< of all recordings, instead of their own
+  record::TimeWindow window;                    ///< the part of all recordings that counts
   std::optional<Vector3> field_uT;              ///< the Earth's, for all missions, instead of what they state
   std::vector<Quantity> without;                ///< to be left out of all recordings, as if they were not there
   std::vector<std::string> excluded;            ///< effects that the library is to be without

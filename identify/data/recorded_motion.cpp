@@ -266,8 +266,8 @@ RecordedMotion thinned(RecordedMotion motion, double interval_s) {
 }
 
 RecordedMotion load_motion(const std::filesystem::path& file, const std::function<void(double)>& progress,
-                           const std::optional<config::Settings>& stated) {
-  const auto recording = record::Recording::open(file);
+                           const std::optional<config::Settings>& stated, const record::TimeWindow& window) {
+  const auto recording = record::Recording::open(file, window);
   config::Settings settings = stated ? *stated : recording->settings();
   settings.calibration.enabled = false;
   settings.navigation.enabled = false;

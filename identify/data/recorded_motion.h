@@ -12,6 +12,7 @@
 
 #include "config/settings.h"
 #include "identify/data/channel.h"
+#include "record/recording.h"
 
 namespace navcal::identify {
 
@@ -64,9 +65,11 @@ struct RecordedMotion {
 
 /// Reads a log or a capture through the pipeline. `stated`: the configuration to use instead of the recording's
 /// own. Rates and forces that come faster than 25 times a second are averaged over 0.04 s. Of two devices with the
-/// same channel the one with more readings counts. `progress` gets 0 to 1. Throws record::BadRecording.
+/// same channel the one with more readings counts. `window`: the part to read. `progress` gets 0 to 1. Throws
+/// record::BadRecording.
 [[nodiscard]] RecordedMotion load_motion(const std::filesystem::path& file,
                                          const std::function<void(double)>& progress,
-                                         const std::optional<config::Settings>& stated = std::nullopt);
+                                         const std::optional<config::Settings>& stated = std::nullopt,
+                                         const record::TimeWindow& window = {});
 
 }  // namespace navcal::identify

@@ -73,6 +73,9 @@ step = [
   EXPECT_NE(waited.value("kind", "cannot say"), "outside");
   EXPECT_NE(waited.value("kind", "cannot say"), "ambiguous");
   EXPECT_EQ(waited["sentence"].get<std::string>().find("there is a gap, and"), std::string::npos);
+  const auto moving = gap("--from 390");
+  EXPECT_EQ(moving["verdict"], "no-gap") << moving["sentence"];
+  EXPECT_LT(moving["duration_s"].get<double>(), 130);
 }
 
 TEST_F(GapKinds, ARecordingThatCannotBeComparedCannotSay) {
