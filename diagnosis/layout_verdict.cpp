@@ -81,7 +81,7 @@ gap::EffectFinding finding_of(const Cause& cause, double probability, const SetE
 std::string names_of(const std::vector<gap::EffectFinding>& effects) {
   std::vector<std::string> words;
   for (const gap::EffectFinding& one : effects) {
-    words.push_back(one.of.empty() ? one.name : one.name + " of " + one.of);
+    words.push_back(one.words());
     for (const gap::Confusion& other : one.confused_with) words.back() += " or " + other.name;
   }
   return fmt::format("{}", fmt::join(words, " and "));
@@ -135,8 +135,9 @@ std::vector<gap::Alternative> alternatives_of(const LayoutEvidence& evidence) {
   std::vector<gap::Alternative> all;
   for (const ScoredSet& one : sets) {
     if (sets.front().log_odds - one.log_odds >= kNamed_nats || all.size() == kMostAlternatives) break;
-    const gap::Closure closure = one.causes.empty() ? gap::Closure{} : evidence.closure(one.causes);
-    if (one.causes.empty() || (closure.closed_ci && (*closure.closed_ci)[1] < gap::kClosedFrom)) continue;
+    if (one.causes.empty()) continue;
+    const gap::Closure closure = evidence.closure(one.causes);
+    if (closure.closed_ci && (*closure.closed_ci)[1] < gap::kClosedFrom) continue;
     const auto estimate = SetEvidence(evidence.found.changes, evidence.library).posterior(one.causes);
     all.push_back({{}, one.probability, closure.closed});
     for (const std::size_t cause : one.causes)
@@ -166,7 +167,7 @@ void say_unconfirmed(gap::Diagnosis& answer) {
   answer.effects.clear();
   answer.sentence =
       fmt::format("Unconfirmed, without nominal recordings (--nominal): the most probable candidate is {}, {}.",
-                  leading.of.empty() ? leading.name : leading.name + " of " + leading.of, fmt::join(sizes, ", "));
+                  leading.words(), fmt::join(sizes, ", "));
   answer.unexplained.push_back("a gap cannot be told from what the layout leaves out of every vehicle");
 }
 
@@ -221,7 +222,7 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   }
   if (best.causes.empty()) return say_unknown(gap::UnknownKind::outside, {}, louder, answer);
   const auto estimate = SetEvidence(found.changes, library).posterior(best.causes);
-  std::optional<std::string> reason;
+  std::string reason;
   std::vector<std::string> not_named;
   auto kind = gap::UnknownKind::outside;
   for (std::size_t i = 0; i < best.causes.size(); ++i) {
@@ -245,11 +246,11 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
         fmt::format("with {} the recording departs by {:.2f} times its noise power, nominal ones by {:.2f} times",
                     names_of(answer.effects), after.mean_square, floor.mean);
   }
-  if (reason) {
+  if (!reason.empty()) {
     answer.effects.clear();
     if (kind == gap::UnknownKind::cannot_say) answer.alternatives = alternatives_of(evidence);
     if (!answer.alternatives.empty()) kind = gap::UnknownKind::ambiguous;
-    return say_unknown(kind, *reason, louder, answer);
+    return say_unknown(kind, reason, louder, answer);
   }
   answer.verdict = gap::Verdict::explained;
   answer.sentence = fmt::format("The gap is explained by {}.", names_of(answer.effects));

@@ -47,7 +47,7 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
 /// Text without a probability, if that is only a share among effects of which none explains the recording.
 void append_effect(std::string& out, const gap::EffectFinding& effect, bool with_probability) {
   constexpr std::size_t kIndent = kTitleWidth + 2;
-  out += effect.of.empty() ? effect.name : effect.name + " of " + effect.of;
+  out += effect.words();
   if (with_probability) append_format(out, ", {}", probability_text(effect.probability));
   out += '\n';
   std::vector<std::string> pieces;

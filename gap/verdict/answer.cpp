@@ -130,8 +130,7 @@ void write_explained(Diagnosis& answer) {
 
 std::string words_of(const Alternative& alternative, std::string_view between = " and ") {
   std::vector<std::string> names;
-  for (const EffectFinding& effect : alternative.effects)
-    names.push_back(effect.of.empty() ? effect.name : effect.name + " of " + effect.of);
+  for (const EffectFinding& effect : alternative.effects) names.push_back(effect.words());
   return fmt::format("{}", fmt::join(names, between));
 }
 

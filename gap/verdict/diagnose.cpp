@@ -259,14 +259,12 @@ void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, con
     answer.alternatives = alternatives_of(problem, result, holdouts);
     if (!answer.alternatives.empty()) answer.kind = UnknownKind::ambiguous;
   }
-  if (judges_nothing(result, problem.library)) {
+  const bool judges_none = judges_nothing(result, problem.library);
+  if (judges_none ||
+      (answer.verdict == Verdict::no_gap && !answer.where.empty() && !result.not_judged().empty())) {
     answer.verdict = Verdict::unknown;
     answer.kind = UnknownKind::cannot_say;
-  }
-  if (answer.verdict == Verdict::no_gap && !answer.where.empty() && !result.not_judged().empty()) {
-    answer.verdict = Verdict::unknown;
-    answer.kind = UnknownKind::cannot_say;
-    answer.unexplained.push_back(hidden_cause_text(result, problem.library));
+    if (!judges_none) answer.unexplained.push_back(hidden_cause_text(result, problem.library));
   }
   if (answer.verdict == Verdict::unknown && answer.least_ratio.value_or(0) > kOtherVehicle) {
     answer.unexplained.insert(answer.unexplained.begin(), other_vehicle_text(*answer.least_ratio));

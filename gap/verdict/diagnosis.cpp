@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/verdict/diagnosis.h"
 
+#include <array>
+
 namespace navcal::gap {
 
 std::string_view name_of(Verdict verdict) {
@@ -13,12 +15,8 @@ std::string_view name_of(Verdict verdict) {
 }
 
 std::string_view name_of(UnknownKind kind) {
-  switch (kind) {
-    case UnknownKind::ambiguous: return "ambiguous";
-    case UnknownKind::outside: return "outside";
-    case UnknownKind::cannot_say: break;
-  }
-  return "cannot say";
+  constexpr std::array<std::string_view, 3> kNames{"ambiguous", "outside", "cannot say"};
+  return kNames.at(static_cast<std::size_t>(kind));
 }
 
 }  // namespace navcal::gap

@@ -84,6 +84,8 @@ struct EffectFinding {
   std::vector<Confusion> confused_with;
   std::string manoeuvre = {};  ///< the manoeuvre that shows the effect
   std::string of = {};         ///< part of a layout that it belongs to: "thruster.2"; empty: the vehicle
+
+  [[nodiscard]] std::string words() const { return of.empty() ? name : name + " of " + of; }
 };
 
 /// Share of the gap that goes away: `closed` = 1 - (after - floor) / (before - floor), on held-out data. Empty
