@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recording.h"
 
-#include <cmath>
-#include <cstdlib>
 #include <deque>
 
 #include "config/csv_map.h"
+#include "protocols/text_fields.h"
 #include "record/capture/capture_recording.h"
 #include "record/log/log_recording.h"
 #include "record/log/mcap_format.h"
@@ -116,10 +115,8 @@ std::unique_ptr<Recording> open_whole(const std::filesystem::path& file) {
 
 std::optional<TimeBound> parse_time_bound(const std::string& text) {
   if (const auto utc_ns = config::parse_iso_time(text)) return TimeBound{0, utc_ns};
-  char* end = nullptr;
-  const double seconds = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(seconds >= 0) || std::isinf(seconds)) return std::nullopt;
-  return TimeBound{seconds, {}};
+  const auto seconds = protocols::signed_number(text);
+  return seconds && *seconds >= 0 ? std::optional(TimeBound{*seconds, {}}) : std::nullopt;
 }
 
 bool is_log(const std::filesystem::path& file) {
