@@ -45,8 +45,9 @@ void check_recordings(const VehicleCheckArguments& arguments) {
   std::optional<config::Settings> settings;
   if (!arguments.config.empty()) settings = config::load(arguments.config);
   analysis::Progress progress("vehicle check", analysis::Progress::Answer::at_the_end);
+  record::SeenRecordings seen;
   const identify::ConventionCheck found =
-      identify::check_conventions(layout, load_motions(arguments.files, settings, progress),
+      identify::check_conventions(layout, load_motions(arguments.files, settings, progress, seen),
                                   [&](double done) { progress.show("checking", done); });
   print_answer(arguments.json ? report::conventions_json(found) : report::conventions_text(found));
 }
