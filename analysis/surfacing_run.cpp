@@ -34,8 +34,8 @@ void SurfacingRun::begin_file(std::int64_t time_ns) {
   newest_ns_ = 0;
 }
 
-void SurfacingRun::play(const std::string& file) {
-  if (!seen_.is_new(file, remarks_)) return;
+bool SurfacingRun::play(const std::string& file) {
+  if (!seen_.is_new(file, remarks_)) return false;
   file_ = file;
   const auto recording = record::Recording::open(file);
   const auto ports = match_ports(recording->settings(), settings_, file);
@@ -60,6 +60,7 @@ void SurfacingRun::play(const std::string& file) {
   }
   pipeline_->advance(newest_ns_, *this);
   for (const auto& remark : recording->remarks()) remarks_.push_back(file + ": " + remark);
+  return true;
 }
 
 void SurfacingRun::on_navigation(const pipeline::NavigationSample& sample) {

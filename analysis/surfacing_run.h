@@ -31,7 +31,8 @@ class SurfacingRun final : private pipeline::Sink {
   explicit SurfacingRun(const config::Settings& settings);
 
   /// Throws record::BadRecording. A file that begins within a minute of the end of the last goes on with it.
-  void play(const std::string& file);
+  /// False, with a remark: a recording that was played before.
+  bool play(const std::string& file);
   [[nodiscard]] const std::vector<RecordedSurfacing>& surfacings() const { return surfacings_; }
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   [[nodiscard]] const config::Settings& settings() const { return settings_; }

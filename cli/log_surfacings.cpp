@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "analysis/surfacing_run.h"
-#include "base/printable.h"
 #include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -32,11 +31,13 @@ void show_surfacings(const SurfacingsOptions& options) {
   const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                : config::load(options.config);
   analysis::SurfacingRun run(settings);
-  for (const auto& file : options.files) run.play(file);
+  std::vector<std::string> files;
+  for (const auto& file : options.files)
+    if (run.play(file)) files.push_back(file);
   tell_remarks("navcal log", run.remarks());
   if (!options.page.empty())
-    write_result(options.page, report::surfacings_page(run.surfacings(), options.files, run.settings()));
-  const std::string text = options.json ? report::surfacings_json(run.surfacings(), options.files)
+    write_result(options.page, report::surfacings_page(run.surfacings(), files, run.settings()));
+  const std::string text = options.json ? report::surfacings_json(run.surfacings(), files)
                                         : report::surfacings_text(run.surfacings());
   std::fputs(text.c_str(), stdout);
 }

@@ -80,7 +80,8 @@ identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
   analysis::Progress progress("vehicle predict", analysis::Progress::Answer::at_the_end);
   record::SeenRecordings seen;
   request.recordings = load_motions(arguments.files, settings, progress, seen);
-  request.fit = load_motions(arguments.fit, settings, progress, seen);
+  record::SeenRecordings seen_fit;  // the regressions may be fitted to what is predicted
+  request.fit = load_motions(arguments.fit, settings, progress, seen_fit);
   return identify::predict(request, [&](double done) { progress.show("predicting", done); });
 }
 

@@ -71,13 +71,13 @@ std::optional<SeenRecordings::Repetition> SeenRecordings::see(const std::filesys
   if (seen_.size() == 2) read(seen_.front());  // one recording alone needs no comparison
   Pieces& mine = seen_.back();
   read(mine);
-  for (const Pieces& other : seen_) {
-    if (&other == &mine) break;
+  for (std::size_t i = 0; i + 1 < seen_.size(); ++i) {
+    const Pieces& other = seen_[i];
     double both_s = 0;
     for (const auto& [piece, seconds] : mine.seconds) both_s += other.seconds.contains(piece) ? seconds : 0;
     const double share = both_s / std::max(std::min(mine.total_s, other.total_s), 1e-3);
     if (both_s > kLeastShared_s)
-      return Repetition{other.file, share * std::min(mine.duration_s, other.duration_s), share > 0.5};
+      return Repetition{other.file, i, share * std::min(mine.duration_s, other.duration_s), share > 0.5};
   }
   return std::nullopt;
 }

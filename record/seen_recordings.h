@@ -17,6 +17,7 @@ class SeenRecordings {
  public:
   struct Repetition {
     std::filesystem::path of;  ///< given before
+    std::size_t number = 0;    ///< its number among those given, from 0
     double shared_s = 0;       ///< length of the stretch that both hold
     bool is_whole = false;     ///< most of the shorter one
   };

@@ -21,14 +21,13 @@ Preparation::Preparation(const Request& request, const Library& library, const P
       cache_(request.cache, request.vehicle, library) {}
 
 bool Preparation::is_new(const std::filesystem::path& file, Diagnosis& answer) {
-  const auto is_held_out = [&](const std::filesystem::path& path) {
-    return std::find(request_.holdouts.begin(), request_.holdouts.end(), path) != request_.holdouts.end();
-  };
+  const auto is_held_out = [&](std::size_t number) { return number >= request_.missions.size(); };
+  const bool held_out = is_held_out(given_++);
   const auto repetition = seen_.see(file);
   if (!repetition) return true;
   const std::string shared = fmt::format("{}: {:.0f} s of it are in {} as well", file.filename().string(),
                                          repetition->shared_s, repetition->of.filename().string());
-  if (is_held_out(file) != is_held_out(repetition->of))
+  if (held_out != is_held_out(repetition->number))
     throw std::invalid_argument("--holdout " + shared +
                                 ". An answer can only be checked on a recording of another mission.");
   if (!repetition->is_whole)

@@ -66,6 +66,7 @@ class Preparation {
   unsigned threads_;
   BankCache cache_;
   record::SeenRecordings seen_;
+  std::size_t given_ = 0;  ///< recordings: those to be diagnosed, then those held out
 };
 
 }  // namespace navcal::gap

@@ -32,9 +32,10 @@ class IdentifyProgram : public test::ProgramInFolder {
 TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {
   write_prior();
   ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 5 -o a.cap"), 0) << said("err");
+  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 6 -o b.cap"), 0) << said("err");
   ASSERT_EQ(
       run_navcal(
-          "identify --vehicle prior.toml --holdout a.cap -o fit.toml --json fit.json --report fit.html a.cap"),
+          "identify --vehicle prior.toml --holdout b.cap --holdout a.cap -o fit.toml --json fit.json --report fit.html a.cap"),
       0)
       << said("err");
   const auto json = nlohmann::json::parse(said("fit.json"));
@@ -56,6 +57,7 @@ TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {
   EXPECT_EQ(fitted.uncertainties.size(), 3U);
   EXPECT_NE(said("fit.html").find("Fitted numbers"), std::string::npos);
   EXPECT_NE(said("out").find("held-out recordings"), std::string::npos) << said("out");
+  EXPECT_NE(said("err").find("s of it are in a.cap as well, so it is left out"), std::string::npos) << said("err");
 }
 
 TEST_F(IdentifyProgram, ALayoutIsJudgedByItsPredictions) {
