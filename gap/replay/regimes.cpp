@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/gamma.hpp>
 #include <cmath>
 #include <numbers>
@@ -161,13 +162,20 @@ Eigen::MatrixXd explained_rms(const Innovations& innovations, const Trajectory10
   return result;
 }
 
+/// Factor on the variance: a tail that is heavier than the bank can resolve.
+constexpr double kHeavier = 1.5;
+
 RegimeStatistics::RegimeStatistics(const std::vector<Eigen::MatrixXd>& of_nulls) {
   if (of_nulls.empty()) return;
   mean_square = variance = Eigen::MatrixXd::Zero(of_nulls.front().rows(), of_nulls.front().cols());
   for (const auto& null : of_nulls) mean_square += null.cwiseAbs2();
   mean_square /= static_cast<double>(of_nulls.size());
   for (const auto& null : of_nulls) variance += (null.cwiseAbs2() - mean_square).cwiseAbs2();
-  variance /= std::max<double>(1, static_cast<double>(of_nulls.size()) - 1);
+  // Few nulls hardly tell their variance: its upper limit (99 %), as far as the heavier tail does not cover it.
+  const double freedom = std::max<double>(1, static_cast<double>(of_nulls.size()) - 1);
+  constexpr double kLimit = 0.01;
+  variance /=
+      std::min(freedom, kHeavier * boost::math::quantile(boost::math::chi_squared_distribution<>(freedom), kLimit));
 }
 
 double RegimeStatistics::floor(Eigen::Index channel, Eigen::Index regime) const {
@@ -176,7 +184,6 @@ double RegimeStatistics::floor(Eigen::Index channel, Eigen::Index regime) const 
 
 double RegimeStatistics::p_value(Eigen::Index channel, Eigen::Index regime, double value) const {
   const double mean = mean_square(channel, regime);
-  constexpr double kHeavier = 1.5;
   const double spread = kHeavier * variance(channel, regime);
   if (!(mean > 0) || !(spread > 0) || !(value > 0)) return 1;
   // Nulls that hardly differ give a distribution too narrow for its tail to be computed. The bound on its shape

@@ -36,7 +36,8 @@ class RegimeStatistics {
   /// distribution, with a heavier tail than the bank can resolve.
   [[nodiscard]] double p_value(Eigen::Index channel, Eigen::Index regime, double value) const;
 
-  Eigen::MatrixXd mean_square, variance;  ///< of the mean square, among nulls
+  Eigen::MatrixXd mean_square;  ///< among nulls
+  Eigen::MatrixXd variance;     ///< of the mean square; where nulls are few, its upper limit
 };
 
 }  // namespace navcal::gap
