@@ -27,46 +27,28 @@ Option<Step> count(std::string_view key, std::optional<int> Step::*value, double
 }
 
 std::vector<Option<M>> make_mission_options() {
-  const NumberOf<M> at_start{"start"};
+  const auto table = table_of<M>("mission", std::identity());
+  const auto start = table_of<M>("start", &M::start);
   return {
-      text<M>(
-          {.table = "mission",
-           .key = "description",
-           .description = "Purpose of the mission.",
-           .text_rule = "a text without control characters",
-           .text_holds = is_printable},
-          [](auto& m) -> auto& { return m.description; }),
-      choice<M>(
-          {.table = "mission",
-           .key = "at_end",
-           .description = "Repeat the mission, or continue as at its end.",
-           .choices = {"repeat", "hold"}},
-          [](auto& m) -> auto& { return m.at_end; }),
-      at_start(
-          "heading_deg", "Heading, true.", kDegrees, -360, 360,
-          [](auto& m) -> auto& { return m.start.heading_rad; }),
-      at_start(
-          "depth_m", "Depth.", kMetres, 0, 1000, [](auto& m) -> auto& { return m.start.depth_m; }),
-      at_start(
-          "speed_m_s", "Speed.", kMetresPerSecond, 0, 10, [](auto& m) -> auto& { return m.start.speed_m_s; }),
-      at_start(
-          "shaft_rpm", "Shaft speed.", kRpm, 0, 60000, [](auto& m) -> auto& { return m.start.shaft_rps; }),
+      table.text("description", &M::description, is_printable, "a text without control characters",
+                 "Purpose of the mission."),
+      table.choice("at_end", &M::at_end, {"repeat", "hold"}, "Repeat the mission, or continue as at its end."),
+      start.number("heading_deg", &MissionStart::heading_rad, kDegrees, -360, 360, "Heading, true."),
+      start.number("depth_m", &MissionStart::depth_m, kMetres, 0, 1000, "Depth."),
+      start.number("speed_m_s", &MissionStart::speed_m_s, kMetresPerSecond, 0, 10, "Speed."),
+      start.number("shaft_rpm", &MissionStart::shaft_rps, kRpm, 0, 60000, "Shaft speed."),
   };
 }
 
 std::vector<Option<Step>> make_step_options() {
+  const auto step = table_of<Step>("", std::identity());
   return {
-      choice<Step>(
-          {.key = "do",
-           .description = "Kind of the step.",
-           .choices = {"leg", "turn", "circle", "spiral", "zigzag", "pirouette", "dive", "surface", "speed",
-                       "swing", "doublet", "direct"}},
-          [](auto& s) -> auto& { return s.kind; }),
-      choice<Step>(
-          {.key = "on",
-           .description = "Control surface that a doublet moves.",
-           .choices = {"rudder", "elevator", "fin1", "fin2", "fin3"}},
-          [](auto& s) -> auto& { return s.on; }),
+      step.choice("do", &Step::kind,
+                  {"leg", "turn", "circle", "spiral", "zigzag", "pirouette", "dive", "surface", "speed", "swing",
+                   "doublet", "direct"},
+                  "Kind of the step."),
+      step.choice("on", &Step::on, {"rudder", "elevator", "fin1", "fin2", "fin3"},
+                  "Control surface that a doublet moves."),
       number("heading_deg", &Step::heading_rad, kDegrees, -360, 360, "True heading, reached by the shorter turn."),
       number("by_deg", &Step::by_rad, kDegrees, -36000, 36000, "Change of heading, to starboard."),
       number("turns", &Step::turns, kNoUnit, -1000, 1000, "Turns, to starboard."),

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -30,7 +31,7 @@ struct OptionInfo {
   double high = 0;
   bool zero_allowed = true;
   bool octal = false;                              ///< as file modes are written
-  std::size_t count = 8;                           ///< of the numbers of `channels`: eight or three
+  std::size_t count = 0;                           ///< of the numbers of `channels`: eight or three
   std::vector<std::string_view> choices{};         ///< in the order of the enumeration's values
   std::string_view text_rule{};                    ///< what a text (of a list: each) must be, in words ...
   bool (*text_holds)(std::string_view) = nullptr;  ///< ... and in code
@@ -60,101 +61,110 @@ struct Option : OptionInfo {
   std::function<void(Owner&, const Value&)> set;
 };
 
-// Each maker below takes the description and a function that returns the
-// member: [](auto& s) -> auto& { return s.x; }.
-
-template <class Owner, class Member>
-Option<Owner> boolean(OptionInfo info, Member member) {
-  info.kind = Kind::boolean;
-  return {std::move(info), [member](const Owner& owner) { return Value(member(owner)); },
-          [member](Owner& owner, const Value& value) { member(owner) = std::get<bool>(value); }};
-}
-
-template <class Owner, class Member>
-Option<Owner> integer(OptionInfo info, Member member) {
-  using Field = std::remove_cvref_t<decltype(member(std::declval<Owner&>()))>;
-  info.kind = Kind::integer;
-  return {std::move(info), [member](const Owner& owner) { return Value(std::int64_t{member(owner)}); },
-          [member](Owner& owner, const Value& value) {
-            member(owner) = static_cast<Field>(std::get<std::int64_t>(value));
-          }};
-}
-
-template <class Owner, class Member>
-Option<Owner> real(OptionInfo info, Member member) {
-  using Field = std::remove_cvref_t<decltype(member(std::declval<Owner&>()))>;
-  info.kind = Kind::real;
-  const Unit unit = info.unit;
-  return {std::move(info), [member, unit](const Owner& owner) { return Value(to_file(member(owner), unit)); },
-          [member, unit](Owner& owner, const Value& value) {
-            member(owner) = to_inside<Field>(std::get<double>(value), unit);
-          }};
-}
-
-/// Makes the real numbers of one table.
-template <class Owner>
-struct NumberOf {
+/// Makes the options of one table. Each maker takes the key, the member, its bounds, and the description.
+template <class Owner, class Part>
+struct TableOf {
   std::string_view table;
+  Part part;  ///< of the owner, in which the members lie: a pointer to a member or a function
+  std::vector<protocols::Protocol> only_for{};
+
+  template <class Member>
+  Option<Owner> boolean(std::string_view key, Member member, std::string_view description) const {
+    return plain<bool>({.key = key, .description = description, .kind = Kind::boolean}, member);
+  }
+
+  template <class Member>
+  Option<Owner> integer(std::string_view key, Member member, const Unit& unit, double low, double high,
+                        std::string_view description) const {
+    return make(
+        {.key = key, .description = description, .kind = Kind::integer, .unit = unit, .low = low, .high = high},
+        member, [](const auto& field) { return Value(std::int64_t{field}); },
+        [](auto& field, const Value& value) {
+          field = static_cast<std::remove_reference_t<decltype(field)>>(std::get<std::int64_t>(value));
+        });
+  }
 
   /// `low` and `high` are in `unit`.
   template <class Member>
-  Option<Owner> operator()(std::string_view key, std::string_view description, const Unit& unit, double low,
-                           double high, Member member) const {
-    return real<Owner>(
-        {.table = table, .key = key, .description = description, .unit = unit, .low = low, .high = high}, member);
+  Option<Owner> number(std::string_view key, Member member, const Unit& unit, double low, double high,
+                       std::string_view description) const {
+    return make(
+        {.key = key, .description = description, .kind = Kind::real, .unit = unit, .low = low, .high = high},
+        member, [unit](const auto& field) { return Value(to_file(field, unit)); },
+        [unit](auto& field, const Value& value) {
+          field = to_inside<std::remove_reference_t<decltype(field)>>(std::get<double>(value), unit);
+        });
+  }
+
+  /// A text or a path; `rule` says in words what `holds` checks.
+  template <class Member>
+  Option<Owner> text(std::string_view key, Member member, bool (*holds)(std::string_view), std::string_view rule,
+                     std::string_view description) const {
+    return plain<std::string>({.key = key, .description = description, .text_rule = rule, .text_holds = holds},
+                              member);
+  }
+
+  /// A list of texts, which may be empty; likewise of each.
+  template <class Member>
+  Option<Owner> list(std::string_view key, Member member, bool (*holds)(std::string_view), std::string_view rule,
+                     std::string_view description) const {
+    return plain<std::vector<std::string>>(
+        {.key = key, .description = description, .kind = Kind::list, .text_rule = rule, .text_holds = holds},
+        member);
+  }
+
+  template <class Member>
+  Option<Owner> choice(std::string_view key, Member member, std::vector<std::string_view> choices,
+                       std::string_view description) const {
+    return make(
+        {.key = key, .description = description, .kind = Kind::choice, .choices = choices}, member,
+        [choices](const auto& field) { return Value(std::string(choices.at(static_cast<std::size_t>(field)))); },
+        [choices](auto& field, const Value& value) {
+          const auto chosen = std::find(choices.begin(), choices.end(), std::get<std::string>(value));
+          field = static_cast<std::remove_reference_t<decltype(field)>>(chosen - choices.begin());
+        });
+  }
+
+  /// The numbers of an array.
+  template <class Member>
+  Option<Owner> channels(std::string_view key, Member member, const Unit& unit, double low, double high,
+                         std::string_view description) const {
+    auto option = make(
+        {.key = key, .description = description, .kind = Kind::channels, .unit = unit, .low = low, .high = high},
+        member, [](const auto& field) { return Value(std::vector<double>(field.begin(), field.end())); },
+        [](auto& field, const Value& value) {
+          const auto& given = std::get<std::vector<double>>(value);
+          std::copy(given.begin(), given.end(), field.begin());
+        });
+    using Numbers = decltype(std::invoke(member, std::invoke(part, std::declval<Owner&>())));
+    option.count = std::tuple_size_v<std::remove_reference_t<Numbers>>;
+    return option;
+  }
+
+ private:
+  template <class Member>
+  Option<Owner> make(OptionInfo info, Member member, auto read, auto write) const {
+    info.table = table;
+    info.only_for = only_for;
+    const auto field = [ part = part, member ](auto& owner) -> auto& {
+      return std::invoke(member, std::invoke(part, owner));
+    };
+    return {std::move(info), [field, read](const Owner& owner) { return read(field(owner)); },
+            [field, write](Owner& owner, const Value& value) { write(field(owner), value); }};
+  }
+
+  /// A member that the file has as it is.
+  template <class Type, class Member>
+  Option<Owner> plain(OptionInfo info, Member member) const {
+    return make(
+        std::move(info), member, [](const auto& field) { return Value(Type(field)); },
+        [](auto& field, const Value& value) { field = std::get<Type>(value); });
   }
 };
 
-template <class Owner, class Member>
-Option<Owner> text(OptionInfo info, Member member) {
-  info.kind = Kind::text;
-  return {std::move(info),
-          [member](const Owner& owner) {
-            if constexpr (requires { member(owner).native(); }) {
-              return Value(member(owner).native());
-            } else {
-              return Value(member(owner));
-            }
-          },
-          [member](Owner& owner, const Value& value) { member(owner) = std::get<std::string>(value); }};
-}
-
-template <class Owner, class Member>
-Option<Owner> choice(OptionInfo info, Member member) {
-  using Field = std::remove_cvref_t<decltype(member(std::declval<Owner&>()))>;
-  info.kind = Kind::choice;
-  const auto choices = info.choices;
-  return {std::move(info),
-          [member, choices](const Owner& owner) {
-            return Value(std::string(choices.at(static_cast<std::size_t>(member(owner)))));
-          },
-          [member, choices](Owner& owner, const Value& value) {
-            for (std::size_t i = 0; i < choices.size(); ++i) {
-              if (choices[i] == std::get<std::string>(value)) member(owner) = static_cast<Field>(i);
-            }
-          }};
-}
-
-/// A list of texts, which may be empty.
-template <class Owner, class Member>
-Option<Owner> list(OptionInfo info, Member member) {
-  info.kind = Kind::list;
-  return {
-      std::move(info), [member](const Owner& owner) { return Value(member(owner)); },
-      [member](Owner& owner, const Value& value) { member(owner) = std::get<std::vector<std::string>>(value); }};
-}
-
-template <class Owner, class Member>
-Option<Owner> channels(OptionInfo info, Member member) {
-  info.kind = Kind::channels;
-  return {std::move(info),
-          [member](const Owner& owner) {
-            return Value(std::vector<double>(member(owner).begin(), member(owner).end()));
-          },
-          [member](Owner& owner, const Value& value) {
-            const auto& given = std::get<std::vector<double>>(value);
-            for (std::size_t i = 0; i < given.size(); ++i) member(owner).at(i) = given[i];
-          }};
+template <class Owner, class Part>
+TableOf<Owner, Part> table_of(std::string_view table, Part part, std::vector<protocols::Protocol> only_for = {}) {
+  return {table, part, std::move(only_for)};
 }
 
 }  // namespace navcal::config

@@ -3,52 +3,22 @@
 #include "config/text_rules.h"
 
 namespace navcal::config {
-namespace {
 
-using Supply = PowerSettings;
-
-std::vector<Option<Supply>> make_power_options() {
-  return {
-      text<Supply>(
-          {.key = "gpio_chip",
-           .description = "GPIO controller of the line (`gpiodetect` lists them).",
-           .text_rule = "gpiochip0, or its path in /dev",
-           .text_holds = is_gpio_chip},
-          [](auto& p) -> auto& { return p.gpio_chip; }),
-      integer<Supply>(
-          {.key = "line",
-           .description = "Number of the line on that controller (`gpioinfo` lists them).",
-           .low = 0,
-           .high = 1023},
-          [](auto& p) -> auto& { return p.line; }),
-      list<Supply>(
-          {.key = "devices",
-           .description = "Ports whose devices it feeds.",
-           .text_rule = "the name of a port",
-           .text_holds = is_port_name},
-          [](auto& p) -> auto& { return p.devices; }),
-      boolean<Supply>(
-          {.key = "active_low", .description = "Whether the low level of the line switches on."},
-          [](auto& p) -> auto& { return p.active_low; }),
-      choice<Supply>(
-          {.key = "at_start",
-           .description = "What a start of navcald does to the line; `leave` keeps it as it is.",
-           .choices = {"on", "off", "leave"}},
-          [](auto& p) -> auto& { return p.at_start; }),
-      real<Supply>(
-          {.key = "settle_s",
-           .description = "Time from switching on until the start-up dialogues of the devices begin.",
-           .unit = kSeconds,
-           .low = 0,
-           .high = 600},
-          [](auto& p) -> auto& { return p.settle_s; }),
+const std::vector<Option<PowerSettings>>& power_options() {
+  const auto table = table_of<PowerSettings>("", std::identity());
+  static const std::vector<Option<PowerSettings>> options{
+      table.text("gpio_chip", &PowerSettings::gpio_chip, is_gpio_chip, "gpiochip0, or its path in /dev",
+                 "GPIO controller of the line (`gpiodetect` lists them)."),
+      table.integer("line", &PowerSettings::line, kNoUnit, 0, 1023,
+                    "Number of the line on that controller (`gpioinfo` lists them)."),
+      table.list("devices", &PowerSettings::devices, is_port_name, "the name of a port",
+                 "Ports whose devices it feeds."),
+      table.boolean("active_low", &PowerSettings::active_low, "Whether the low level of the line switches on."),
+      table.choice("at_start", &PowerSettings::at_start, {"on", "off", "leave"},
+                   "What a start of navcald does to the line; `leave` keeps it as it is."),
+      table.number("settle_s", &PowerSettings::settle_s, kSeconds, 0, 600,
+                   "Time from switching on until the start-up dialogues of the devices begin."),
   };
-}
-
-}  // namespace
-
-const std::vector<Option<Supply>>& power_options() {
-  static const std::vector<Option<Supply>> options = make_power_options();
   return options;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "config/role_options.h"
-
 #include <array>
 
+#include "config/options.h"
 #include "config/text_rules.h"
 
 namespace navcal::config {
@@ -27,16 +26,13 @@ constexpr std::array<std::string_view, kRoles.size()> kDescriptions{
 }  // namespace
 
 std::vector<Option<Settings>> role_options() {
+  const auto table = table_of<Settings>("roles", &Settings::roles);
   std::vector<Option<Settings>> options;
   for (const Role role : kRoles) {
     const auto at = static_cast<std::size_t>(role);
-    options.push_back(text<Settings>(
-        {.table = "roles",
-         .key = name_of(role),
-         .description = kDescriptions.at(at),
-         .text_rule = "a port's name, or nothing",
-         .text_holds = is_port_name_or_nothing},
-        [at](auto& s) -> auto& { return s.roles.port_names.at(at); }));
+    options.push_back(table.text(
+        name_of(role), [at](auto& roles) -> auto& { return roles.port_names.at(at); }, is_port_name_or_nothing,
+        "a port's name, or nothing", kDescriptions.at(at)));
   }
   return options;
 }
