@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 
 #include "analysis/decode_describe.h"
 #include "protocols/ubx_configuration.h"
@@ -22,17 +21,8 @@ void put_corrected_time(const ubx::NavPvt& pvt, PositionFields& position) {
         protocols::TimeOfDay{pvt.hour, pvt.minute, pvt.second, static_cast<std::uint32_t>(pvt.nanosecond)};
     return;
   }
-  using std::chrono::nanoseconds;
-  const std::chrono::sys_time<nanoseconds> instant{nanoseconds(*utc_ns)};
-  const auto day = std::chrono::floor<std::chrono::days>(instant);
-  const std::chrono::year_month_day calendar(day);
-  const std::chrono::hh_mm_ss time(instant - day);
-  position.date = Date{static_cast<std::uint16_t>(static_cast<int>(calendar.year())),
-                       static_cast<std::uint8_t>(static_cast<unsigned>(calendar.month())),
-                       static_cast<std::uint8_t>(static_cast<unsigned>(calendar.day()))};
-  position.time = protocols::TimeOfDay{
-      static_cast<std::uint8_t>(time.hours().count()), static_cast<std::uint8_t>(time.minutes().count()),
-      static_cast<std::uint8_t>(time.seconds().count()), static_cast<std::uint32_t>(time.subseconds().count())};
+  position.date = protocols::date_of(*utc_ns);
+  position.time = protocols::time_of_day(*utc_ns);
 }
 
 void write(FieldWriter& fields, const ubx::NavPvt& pvt, const std::optional<Date>& pivot) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "daemon/nmea_feed.h"
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -23,18 +22,8 @@ std::optional<double> in_degrees(const std::optional<double>& angle_rad) {
 }
 
 void put_time(nmea::StatedPosition& position, std::int64_t utc_ns) {
-  namespace chrono = std::chrono;
-  const chrono::sys_time<chrono::nanoseconds> time{chrono::nanoseconds(utc_ns)};
-  const auto midnight = chrono::floor<chrono::days>(time);
-  const chrono::year_month_day date{midnight};
-  const chrono::hh_mm_ss of_day{time - midnight};
-  position.date = protocols::Date{static_cast<std::uint16_t>(static_cast<int>(date.year())),
-                                  static_cast<std::uint8_t>(static_cast<unsigned>(date.month())),
-                                  static_cast<std::uint8_t>(static_cast<unsigned>(date.day()))};
-  position.time = protocols::TimeOfDay{static_cast<std::uint8_t>(of_day.hours().count()),
-                                       static_cast<std::uint8_t>(of_day.minutes().count()),
-                                       static_cast<std::uint8_t>(of_day.seconds().count()),
-                                       static_cast<std::uint32_t>(of_day.subseconds().count())};
+  position.date = protocols::date_of(utc_ns);
+  position.time = protocols::time_of_day(utc_ns);
 }
 
 void append_position(std::string& out, const nmea::StatedPosition& position,

@@ -2,7 +2,6 @@
 #include "protocols/oncore_aid.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "protocols/oncore_command.h"
@@ -39,20 +38,15 @@ std::vector<std::uint8_t> encode_aid_position(const AidPosition& position) {
 }
 
 std::vector<std::uint8_t> encode_aid_time(std::int64_t utc_ns) {
-  using std::chrono::floor;
-  const std::chrono::sys_time<std::chrono::nanoseconds> instant{std::chrono::nanoseconds(utc_ns)};
-  const auto day = floor<std::chrono::days>(instant);
-  const std::chrono::year_month_day date(day);
-  const std::chrono::hh_mm_ss time(floor<std::chrono::seconds>(instant - day));
-  const auto year = static_cast<unsigned>(static_cast<int>(date.year()));
-  const auto u8 = [](auto value) { return static_cast<std::uint8_t>(value); };
-  const std::vector<std::uint8_t> data{u8(static_cast<unsigned>(date.month())),
-                                       u8(static_cast<unsigned>(date.day())),
-                                       u8(year >> 8),
-                                       u8(year),
-                                       u8(time.hours().count()),
-                                       u8(time.minutes().count()),
-                                       u8(time.seconds().count()),
+  const Date date = date_of(utc_ns);
+  const TimeOfDay time = time_of_day(utc_ns);
+  const std::vector<std::uint8_t> data{date.month,
+                                       date.day,
+                                       static_cast<std::uint8_t>(date.year >> 8),
+                                       static_cast<std::uint8_t>(date.year),
+                                       time.hour,
+                                       time.minute,
+                                       time.second,
                                        0,
                                        0,
                                        0};

@@ -13,6 +13,19 @@ std::chrono::year_month_day calendar(const Date& date) {
   return std::chrono::year{date.year} / std::chrono::month{date.month} / std::chrono::day{date.day};
 }
 
+Date date_of_day(std::chrono::sys_days day) {
+  const std::chrono::year_month_day date(day);
+  return {static_cast<std::uint16_t>(static_cast<int>(date.year())),
+          static_cast<std::uint8_t>(static_cast<unsigned>(date.month())),
+          static_cast<std::uint8_t>(static_cast<unsigned>(date.day()))};
+}
+
+/// Negative before 1970, too.
+std::chrono::sys_days day_of(std::int64_t unix_ns) {
+  return std::chrono::floor<std::chrono::days>(
+      std::chrono::sys_time<std::chrono::nanoseconds>(std::chrono::nanoseconds(unix_ns)));
+}
+
 template <class Number>
 bool read(std::string_view text, Number& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -33,6 +46,15 @@ std::int64_t unix_ns(const Date& date, const TimeOfDay& time) {
   return seconds * 1'000'000'000 + time.nanosecond;
 }
 
+Date date_of(std::int64_t unix_ns) { return date_of_day(day_of(unix_ns)); }
+
+TimeOfDay time_of_day(std::int64_t unix_ns) {
+  const std::chrono::hh_mm_ss time(std::chrono::nanoseconds(unix_ns) - day_of(unix_ns).time_since_epoch());
+  return {static_cast<std::uint8_t>(time.hours().count()), static_cast<std::uint8_t>(time.minutes().count()),
+          static_cast<std::uint8_t>(time.seconds().count()),
+          static_cast<std::uint32_t>(time.subseconds().count())};
+}
+
 std::optional<Date> parse_iso_date(std::string_view text) {
   Date date;
   if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
@@ -48,11 +70,7 @@ CorrectedDate correct_rollover(const Date& date, const Date& pivot) {
   const std::chrono::sys_days day{calendar(date)};
   const auto missing = (std::chrono::sys_days{calendar(pivot)} - day).count();
   const auto epochs = (missing + kDaysPerEpoch - 1) / kDaysPerEpoch;
-  const std::chrono::year_month_day moved{day + std::chrono::days{epochs * kDaysPerEpoch}};
-  return {Date{static_cast<std::uint16_t>(static_cast<int>(moved.year())),
-               static_cast<std::uint8_t>(static_cast<unsigned>(moved.month())),
-               static_cast<std::uint8_t>(static_cast<unsigned>(moved.day()))},
-          true};
+  return {date_of_day(day + std::chrono::days{epochs * kDaysPerEpoch}), true};
 }
 
 }  // namespace navcal::protocols

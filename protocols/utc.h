@@ -30,6 +30,10 @@ struct TimeOfDay {
 /// Nanoseconds since 1970-01-01, leap seconds not counted: 23:59:60 is the same as the midnight that follows it.
 [[nodiscard]] std::int64_t unix_ns(const Date& date, const TimeOfDay& time);
 
+/// Day and time of day of such a number.
+[[nodiscard]] Date date_of(std::int64_t unix_ns);
+[[nodiscard]] TimeOfDay time_of_day(std::int64_t unix_ns);
+
 /// "2019-04-07"; nothing else.
 [[nodiscard]] std::optional<Date> parse_iso_date(std::string_view text);
 

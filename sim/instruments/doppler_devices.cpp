@@ -7,8 +7,8 @@
 
 #include "base/angles.h"
 #include "protocols/pd6.h"
+#include "protocols/utc.h"
 #include "protocols/water_linked.h"
-#include "sim/instruments/gps_receiver.h"
 #include "sim/rotation.h"
 
 namespace navcal::sim {
@@ -58,8 +58,8 @@ pd0::FixedLeader fixed_leader(const Pd0Doppler::Options& options) {
 pd0::VariableLeader variable_leader(const DopplerPing& ping) {
   pd0::VariableLeader variable;
   variable.ensemble = ping.number;
-  variable.date = date_of(ping.measured_ns);
-  variable.time = time_of(ping.measured_ns);
+  variable.date = protocols::date_of(ping.measured_ns);
+  variable.time = protocols::time_of_day(ping.measured_ns);
   variable.speed_of_sound_m_s = kSoundSpeed_m_s;
   variable.depth_m = std::max(0.0, ping.state.position_m[2]);
   // 359.996 degrees would be sent as 360.00.
@@ -112,8 +112,8 @@ std::vector<std::uint8_t> Pd0Doppler::encode(const DopplerPing& ping, std::int64
 }
 
 std::vector<std::uint8_t> Pd6Doppler::encode(const DopplerPing& ping, std::int64_t) const {
-  const auto date = date_of(ping.measured_ns);
-  const auto time = time_of(ping.measured_ns);
+  const auto date = protocols::date_of(ping.measured_ns);
+  const auto time = protocols::time_of_day(ping.measured_ns);
   pd6::Timing timing;
   const std::string clock =
       fmt::format("{:02}{:02}{:02}{:02}{:02}{:02}{:02}", date.year % 100, date.month, date.day, time.hour,

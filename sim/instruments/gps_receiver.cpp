@@ -2,7 +2,6 @@
 #include "sim/instruments/gps_receiver.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -10,9 +9,6 @@
 #include "sim/rotation.h"
 
 namespace navcal::sim {
-
-using std::chrono::nanoseconds;
-using UtcTime = std::chrono::sys_time<nanoseconds>;
 
 GpsReceiver::GpsReceiver(const Options& options, const Motion& motion, std::uint64_t seed)
     : options_(options), motion_(motion), effects_(options.effects != nullptr ? *options.effects : none_),
@@ -114,21 +110,6 @@ GpsReading GpsReceiver::measure(std::int64_t second_ns) {
   last_.course_deg = std::atan2(east, north) * 180 / std::numbers::pi;
   if (last_.course_deg < 0) last_.course_deg += 360;
   return last_;
-}
-
-protocols::Date date_of(std::int64_t utc_ns) {
-  const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(UtcTime(nanoseconds(utc_ns))));
-  return {static_cast<std::uint16_t>(static_cast<int>(day.year())),
-          static_cast<std::uint8_t>(static_cast<unsigned>(day.month())),
-          static_cast<std::uint8_t>(static_cast<unsigned>(day.day()))};
-}
-
-protocols::TimeOfDay time_of(std::int64_t utc_ns) {
-  const UtcTime instant{nanoseconds(utc_ns)};
-  const std::chrono::hh_mm_ss time(instant - std::chrono::floor<std::chrono::days>(instant));
-  return {static_cast<std::uint8_t>(time.hours().count()), static_cast<std::uint8_t>(time.minutes().count()),
-          static_cast<std::uint8_t>(time.seconds().count()),
-          static_cast<std::uint32_t>(time.subseconds().count())};
 }
 
 }  // namespace navcal::sim

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "devices/instrument_model.h"
-#include "protocols/utc.h"
 #include "sim/effects/effect_set.h"
 #include "sim/geodesy.h"
 #include "sim/instruments/electronics.h"
@@ -65,9 +64,5 @@ class GpsReceiver {
   int fixes_ = 0;      ///< since then
   GpsReading last_;
 };
-
-/// Calendar date and time of day of UTC nanoseconds.
-[[nodiscard]] protocols::Date date_of(std::int64_t utc_ns);
-[[nodiscard]] protocols::TimeOfDay time_of(std::int64_t utc_ns);
 
 }  // namespace navcal::sim

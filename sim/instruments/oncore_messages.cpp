@@ -29,8 +29,8 @@ protocols::Fix fix_of(const GpsReading& reading) {
 
 oncore::Position position_of(const GpsReading& reading, const ReceiverTime& time) {
   oncore::Position position;
-  position.date = date_of(time.reported_ns);
-  position.time = time_of(time.reported_ns);
+  position.date = protocols::date_of(time.reported_ns);
+  position.time = protocols::time_of_day(time.reported_ns);
   position.filtered = {reading.latitude_deg, reading.longitude_deg, reading.height_m, std::nullopt};
   position.unfiltered = position.filtered;
   position.speed_m_s = reading.speed_m_s;
@@ -91,8 +91,8 @@ std::vector<std::uint8_t> cj_message() {
 std::vector<std::uint8_t> nmea_sentences(const GpsReading& reading, const ReceiverTime& time) {
   namespace nmea = protocols::nmea;
   nmea::StatedPosition position;
-  position.date = date_of(time.reported_ns);
-  position.time = time_of(time.reported_ns);
+  position.date = protocols::date_of(time.reported_ns);
+  position.time = protocols::time_of_day(time.reported_ns);
   if (reading.fixed) {
     position.fix = fix_of(reading);
     position.latitude_deg = reading.latitude_deg;

@@ -43,8 +43,8 @@ std::vector<std::uint8_t> pvt_message(const GpsReading& reading, const UbxEpoch&
                                       const devices::GpsModel& gps) {
   ubx::NavPvt pvt;
   pvt.time_of_week_ms = time_of_week_ms(epoch);
-  pvt.date = date_of(epoch.utc_ns);
-  const protocols::TimeOfDay time = time_of(epoch.utc_ns);
+  pvt.date = protocols::date_of(epoch.utc_ns);
+  const protocols::TimeOfDay time = protocols::time_of_day(epoch.utc_ns);
   pvt.hour = time.hour;
   pvt.minute = time.minute;
   pvt.second = time.second;

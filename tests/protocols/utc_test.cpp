@@ -78,6 +78,15 @@ TEST(Rollover, AnInvalidDateIsLeftAlone) {
   EXPECT_EQ(result.date, (Date{2000, 0, 0}));
 }
 
+TEST(Utc, DateAndTimeOfDayLeadBackToTheNumber) {
+  for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1'709'251'199'999'999'999},
+                                std::int64_t{-86'400'000'000'000}, std::int64_t{4'102'444'800'000'000'000}})
+    EXPECT_EQ(unix_ns(date_of(ns), time_of_day(ns)), ns);
+  EXPECT_EQ(date_of(-1), (Date{1969, 12, 31}));
+  EXPECT_EQ(time_of_day(-1), (TimeOfDay{23, 59, 59, 999'999'999}));
+  EXPECT_EQ(date_of(1'709'164'800'000'000'000), (Date{2024, 2, 29}));
+}
+
 TEST(Utc, TwoDigitYears) {
   EXPECT_EQ(full_year(80), 1980);
   EXPECT_EQ(full_year(99), 1999);
