@@ -9,7 +9,9 @@
 #include <cmath>
 
 #include "autopilot/controllability.h"
-#include "sim/layout/effects/effect_changes.h"
+#include "base/angles.h"
+#include "sim/layout/added_mass.h"
+#include "sim/layout/rigid_body.h"
 
 namespace navcal::sim {
 namespace {
@@ -32,53 +34,124 @@ constexpr std::array<EffectParameter, 1> kLayoutPerSecond{{{"per_s", 0.3, -5, 20
 
 using enum LayoutPart;
 
+using config::Layout;
+using Owner = LayoutOwner;
+using Values = std::span<const double>;
+
+config::LayoutHeard& heard_of(Layout& layout, const Owner& owner) {
+  switch (owner.part) {
+    case surface: return layout.surfaces[owner.index].heard;
+    case ballast: return layout.ballasts[owner.index].heard;
+    case moving_mass: return layout.moving_masses[owner.index].heard;
+    default: return layout.thrusters[owner.index].heard;
+  }
+}
+
+double half_range(const config::LayoutThruster& thruster) {
+  return std::max(thruster.high - thruster.neutral(), thruster.neutral() - thruster.low);
+}
+
+void shift(config::LayoutVector& place_m, Values by_m) {
+  for (std::size_t i = 0; i < 3; ++i) place_m[i] += by_m[i];
+}
+
+void change_thrust_scale(Layout& layout, const Owner& owner, Values values) {
+  // The thrust, not the torque. T0 - k sqrt(|T0|) u_a is scaled whole when k grows with the root.
+  config::LayoutThruster& thruster = layout.thrusters[owner.index];
+  const double factor = 1 + values[0];
+  for (double& force : thruster.table_force_N) force *= factor;
+  thruster.advance_loss_sqrtN_s_m *= std::sqrt(factor);
+  if (factor > 0) thruster.torque_m /= factor;
+  for (double& coefficient : thruster.KT) coefficient *= factor;
+}
+
+void change_added_mass(Layout& layout, const Owner& owner, Values values) {
+  // S M_A S with S = diag(1, .., sqrt(1 + k), .., 1) stays symmetric and positive definite.
+  Matrix6 matrix = added_mass(layout);
+  const double root = std::sqrt(1 + values[0]);
+  const auto i = static_cast<Eigen::Index>(owner.index);
+  matrix.row(i) *= root;
+  matrix.col(i) *= root;
+  layout.added_mass.spheroid.reset();
+  layout.added_mass.strips = {};
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(layout.added_mass.matrix_kg.data()) = matrix;
+}
+
+void change_yaw_damping(Layout& layout, const Owner&, Values values) {
+  const std::vector<double> at_rest(layout.moving_masses.size());
+  const double yaw_kg_m2 = rigid_body_mass(layout, at_rest)(5, 5) + added_mass(layout)(5, 5);
+  layout.damping.linear[35] += values[0] * yaw_kg_m2;
+}
+
 constexpr std::array kLayoutEffects{
     LayoutEffectDescription{"actuator_dead", "command away from neutral *= 1 - k", kLayoutShare, actuator,
-                            LayoutScale::one, "command each actuator alone"},
+                            LayoutScale::one, "command each actuator alone",
+                            [](Layout& l, const Owner& o, Values v) { heard_of(l, o).scale *= 1 - v[0]; }},
     LayoutEffectDescription{"actuator_reversed", "command away from neutral *= 1 - 2 k", kLayoutShare, actuator,
-                            LayoutScale::one, "command each actuator alone"},
+                            LayoutScale::one, "command each actuator alone",
+                            [](Layout& l, const Owner& o, Values v) { heard_of(l, o).scale *= 1 - 2 * v[0]; }},
     LayoutEffectDescription{"added_mass", "M_A *= 1 + k in this degree of freedom", kLayoutForm, freedom,
-                            LayoutScale::one, "steps of the force"},
+                            LayoutScale::one, "steps of the force", change_added_mass},
     LayoutEffectDescription{"ballast_offset", "ballast += F", kLayoutBallastForce, ballast, LayoutScale::weight_N,
-                            "hover or glide"},
-    LayoutEffectDescription{"ballast_scale", "ballast *= 1 + k", kLayoutGain, ballast, LayoutScale::one,
-                            "glide down and up"},
+                            "hover or glide",
+                            [](Layout& l, const Owner& o, Values v) { l.ballasts[o.index].heard.offset += v[0]; }},
+    LayoutEffectDescription{
+        "ballast_scale", "ballast *= 1 + k", kLayoutGain, ballast, LayoutScale::one, "glide down and up",
+        [](Layout& l, const Owner& o, Values v) { l.ballasts[o.index].heard.scale *= 1 + v[0]; }},
     LayoutEffectDescription{"buoyancy", "B += F", kLayoutForce, vehicle, LayoutScale::weight_N,
-                            "hover or glide with thrusters off"},
+                            "hover or glide with thrusters off",
+                            [](Layout& l, const Owner&, Values v) { l.body.buoyancy_N += v[0]; }},
     LayoutEffectDescription{"buoyancy_shift", "r_B += s", kLayoutPlaceShift, vehicle, LayoutScale::length_m,
-                            "lie still, then roll and pitch", 3},
+                            "lie still, then roll and pitch",
+                            [](Layout& l, const Owner&, Values v) { shift(l.body.buoyancy_centre_m, v); }, 3},
     LayoutEffectDescription{"damping", "forces of the hull *= 1 + k in this degree of freedom", kLayoutForm,
-                            freedom, LayoutScale::one, "steady motion at several speeds"},
+                            freedom, LayoutScale::one, "steady motion at several speeds",
+                            [](Layout& l, const Owner& o, Values v) { l.damping.factors[o.index] *= 1 + v[0]; }},
     LayoutEffectDescription{"fin_dead_band", "angles nearer to zero than b are zero", kLayoutAngleBand, surface,
-                            LayoutScale::one, "small doublets"},
-    LayoutEffectDescription{"fin_gain", "d *= 1 + k", kLayoutGain, surface, LayoutScale::one,
-                            "doublets at several amplitudes"},
-    LayoutEffectDescription{"fin_lag", "lag += tau", kLayoutTau, surface, LayoutScale::one, "fast doublets"},
-    LayoutEffectDescription{"fin_offset", "d += o", kLayoutAngle, surface, LayoutScale::one, "straight legs"},
+                            LayoutScale::one, "small doublets",
+                            [](Layout& l, const Owner& o, Values v) {
+                              l.surfaces[o.index].dead_band_rad += v[0] * base::kRadiansPerDegree;
+                            }},
+    LayoutEffectDescription{
+        "fin_gain", "d *= 1 + k", kLayoutGain, surface, LayoutScale::one, "doublets at several amplitudes",
+        [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].heard.scale *= 1 + v[0]; }},
+    LayoutEffectDescription{"fin_lag", "lag += tau", kLayoutTau, surface, LayoutScale::one, "fast doublets",
+                            [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].lag_s += v[0]; }},
+    LayoutEffectDescription{"fin_offset", "d += o", kLayoutAngle, surface, LayoutScale::one, "straight legs",
+                            [](Layout& l, const Owner& o, Values v) {
+                              l.surfaces[o.index].heard.offset += v[0] * base::kRadiansPerDegree;
+                            }},
     LayoutEffectDescription{"gravity_shift", "r_G += s", kLayoutPlaceShift, vehicle, LayoutScale::length_m,
-                            "lie still, then roll and pitch", 3},
-    LayoutEffectDescription{"mass_offset", "place of the mass += s", kLayoutWay, moving_mass,
-                            LayoutScale::length_m, "glide at several angles"},
-    LayoutEffectDescription{"mass_scale", "place of the mass *= 1 + k", kLayoutGain, moving_mass, LayoutScale::one,
-                            "glide at several angles"},
+                            "lie still, then roll and pitch",
+                            [](Layout& l, const Owner&, Values v) { shift(l.body.gravity_centre_m, v); }, 3},
+    LayoutEffectDescription{
+        "mass_offset", "place of the mass += s", kLayoutWay, moving_mass, LayoutScale::length_m,
+        "glide at several angles",
+        [](Layout& l, const Owner& o, Values v) { l.moving_masses[o.index].heard.offset += v[0]; }},
+    LayoutEffectDescription{
+        "mass_scale", "place of the mass *= 1 + k", kLayoutGain, moving_mass, LayoutScale::one,
+        "glide at several angles",
+        [](Layout& l, const Owner& o, Values v) { l.moving_masses[o.index].heard.scale *= 1 + v[0]; }},
     LayoutEffectDescription{"thrust_scale", "thrust *= 1 + k", kLayoutScaleOf, thruster, LayoutScale::one,
-                            "speed steps on reciprocal legs"},
+                            "speed steps on reciprocal legs", change_thrust_scale},
     LayoutEffectDescription{"thruster_dead_band", "dead band += b, in % of the command's range", kLayoutBand,
-                            thruster, LayoutScale::one, "small commands about neutral"},
+                            thruster, LayoutScale::one, "small commands about neutral",
+                            [](Layout& l, const Owner& o, Values v) {
+                              l.thrusters[o.index].dead_band += v[0] / 100 * half_range(l.thrusters[o.index]);
+                            }},
     LayoutEffectDescription{"thruster_lag", "lag += tau", kLayoutTau, thruster, LayoutScale::one,
-                            "fast steps of the command"},
+                            "fast steps of the command",
+                            [](Layout& l, const Owner& o, Values v) { l.thrusters[o.index].lag_s += v[0]; }},
     LayoutEffectDescription{"thruster_offset", "command += o, in % of its range", kLayoutPercent, thruster,
-                            LayoutScale::one, "hover, and steps up and down"},
+                            LayoutScale::one, "hover, and steps up and down",
+                            [](Layout& l, const Owner& o, Values v) {
+                              l.thrusters[o.index].heard.offset += v[0] / 100 * half_range(l.thrusters[o.index]);
+                            }},
     LayoutEffectDescription{"weight", "m += dm, at the centre of gravity", kLayoutMass, vehicle,
-                            LayoutScale::mass_kg, "hover or glide with thrusters off"},
+                            LayoutScale::mass_kg, "hover or glide with thrusters off",
+                            [](Layout& l, const Owner&, Values v) { l.body.mass_kg += v[0]; }},
     LayoutEffectDescription{"yaw_damping", "N -= k M66 r", kLayoutPerSecond, vehicle, LayoutScale::one,
-                            "turns at several rates"},
-};
-
-/// An actuator by kind and number from 0.
-struct Owner {
-  LayoutPart part = vehicle;
-  std::size_t index = 0;
+                            "turns at several rates", change_yaw_damping},
 };
 
 std::string_view word_of(LayoutPart part) {
@@ -116,59 +189,6 @@ std::vector<Owner> named_owners(const config::Layout& layout, LayoutPart part, s
     }
   });
   return owners;
-}
-
-config::LayoutHeard& heard_of(config::Layout& layout, const Owner& owner) {
-  switch (owner.part) {
-    case surface: return layout.surfaces[owner.index].heard;
-    case ballast: return layout.ballasts[owner.index].heard;
-    case moving_mass: return layout.moving_masses[owner.index].heard;
-    default: return layout.thrusters[owner.index].heard;
-  }
-}
-
-using Change = void (*)(config::Layout&, const Owner&, change::Values);
-
-/// The change of a name; kLayoutEffects without one is a mistake that a test finds.
-Change change_named(std::string_view name) {
-  struct Named {
-    std::string_view name;
-    Change change;
-  };
-  using change::Values;
-  using config::Layout;
-  static constexpr std::array<Named, kLayoutEffects.size()> kChanges{{
-      {"actuator_dead", [](Layout& l, const Owner& o, Values v) { change::dead(heard_of(l, o), v); }},
-      {"actuator_reversed", [](Layout& l, const Owner& o, Values v) { change::reversed(heard_of(l, o), v); }},
-      {"added_mass", [](Layout& l, const Owner& o, Values v) { change::added_mass(l, o.index, v); }},
-      {"ballast_offset",
-       [](Layout& l, const Owner& o, Values v) { change::ballast_offset(l.ballasts[o.index], v); }},
-      {"ballast_scale",
-       [](Layout& l, const Owner& o, Values v) { change::ballast_scale(l.ballasts[o.index], v); }},
-      {"buoyancy", [](Layout& l, const Owner&, Values v) { change::buoyancy(l, v); }},
-      {"buoyancy_shift", [](Layout& l, const Owner&, Values v) { change::buoyancy_shift(l, v); }},
-      {"damping", [](Layout& l, const Owner& o, Values v) { change::damping(l, o.index, v); }},
-      {"fin_dead_band",
-       [](Layout& l, const Owner& o, Values v) { change::fin_dead_band(l.surfaces[o.index], v); }},
-      {"fin_gain", [](Layout& l, const Owner& o, Values v) { change::fin_gain(l.surfaces[o.index], v); }},
-      {"fin_lag", [](Layout& l, const Owner& o, Values v) { change::fin_lag(l.surfaces[o.index], v); }},
-      {"fin_offset", [](Layout& l, const Owner& o, Values v) { change::fin_offset(l.surfaces[o.index], v); }},
-      {"gravity_shift", [](Layout& l, const Owner&, Values v) { change::gravity_shift(l, v); }},
-      {"mass_offset",
-       [](Layout& l, const Owner& o, Values v) { change::mass_offset(l.moving_masses[o.index], v); }},
-      {"mass_scale", [](Layout& l, const Owner& o, Values v) { change::mass_scale(l.moving_masses[o.index], v); }},
-      {"thrust_scale", [](Layout& l, const Owner& o, Values v) { change::thrust_scale(l.thrusters[o.index], v); }},
-      {"thruster_dead_band",
-       [](Layout& l, const Owner& o, Values v) { change::thruster_dead_band(l.thrusters[o.index], v); }},
-      {"thruster_lag", [](Layout& l, const Owner& o, Values v) { change::thruster_lag(l.thrusters[o.index], v); }},
-      {"thruster_offset",
-       [](Layout& l, const Owner& o, Values v) { change::thruster_offset(l.thrusters[o.index], v); }},
-      {"weight", [](Layout& l, const Owner&, Values v) { change::weight(l, v); }},
-      {"yaw_damping", [](Layout& l, const Owner&, Values v) { change::yaw_damping(l, v); }},
-  }};
-  const auto found =
-      std::find_if(kChanges.begin(), kChanges.end(), [&](const Named& named) { return named.name == name; });
-  return found == kChanges.end() ? nullptr : found->change;
 }
 
 double scale_value(const config::Layout& layout, LayoutScale scale) {
@@ -236,9 +256,8 @@ std::vector<EffectParameter> parameters_for(const config::Layout& layout, const 
 }
 
 config::Layout changed_layout(config::Layout layout, const LayoutEffect& effect) {
-  const Change change = change_named(effect.about->name);
   for (const Owner& owner : named_owners(layout, effect.about->part, effect.of))
-    change(layout, owner, effect.values);
+    effect.about->change(layout, owner, effect.values);
   return layout;
 }
 

@@ -34,6 +34,13 @@ enum class LayoutScale : std::uint8_t {
   length_m,  ///< cube root of the volume that the vehicle displaces
 };
 
+/// What an effect changes: the vehicle, an actuator by kind and number from 0, or a degree of freedom, 0 surge to
+/// 5 yaw.
+struct LayoutOwner {
+  LayoutPart part = LayoutPart::vehicle;
+  std::size_t index = 0;
+};
+
 struct LayoutEffectDescription {
   std::string_view name;
   std::string_view equation;
@@ -42,6 +49,8 @@ struct LayoutEffectDescription {
   LayoutPart part = LayoutPart::vehicle;
   LayoutScale scale = LayoutScale::one;
   TellingManoeuvre manoeuvre;
+  /// The effect of these values, one for each parameter, on one owner.
+  void (*change)(config::Layout& layout, const LayoutOwner& owner, std::span<const double> values);
   /// Number of consecutive parameters that are the components of one vector.
   std::size_t vector = 1;
 };
