@@ -9,7 +9,6 @@
 
 #include "base/gravity.h"
 #include "sim/layout/added_mass.h"
-#include "sim/layout/lamb_factors.h"
 #include "sim/layout/rigid_body.h"
 
 namespace navcal::sim {

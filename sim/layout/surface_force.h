@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "config/layout.h"
-#include "sim/vehicle/body.h"
+#include "sim/layout/vector_of.h"
 
 namespace navcal::sim {
 
@@ -14,7 +14,11 @@ namespace navcal::sim {
 ///   p = 1/2 rho A ((V.c)^2 + (V.n)^2);   force p a alpha n - p (CDi alpha^2 + CD0 sign(V.c)) c at r.
 class SurfaceForce {
  public:
-  SurfaceForce(const config::LayoutSurface& surface, double density_kg_m3);
+  SurfaceForce(const config::LayoutSurface& surface, double density_kg_m3)
+      : pressure_kg_m_(0.5 * density_kg_m3 * surface.area_m2), slope_(surface.lift_slope_per_rad),
+        induced_(surface.induced_drag), drag_(surface.drag), stall_rad_(surface.stall_rad),
+        of_normal_(force_at(vector_of(surface.place_m), vector_of(surface.normal).normalized())),
+        of_chord_(force_at(vector_of(surface.place_m), vector_of(surface.chord).normalized())) {}
 
   void add(const Vector6& velocity, double angle_rad, Vector6& force) const {
     constexpr double kLeast_m_s = 0.001;

@@ -3,7 +3,7 @@
 
 #include "autopilot/thrust_curve.h"
 #include "config/layout.h"
-#include "sim/vehicle/body.h"
+#include "sim/layout/vector_of.h"
 
 namespace navcal::sim {
 
@@ -11,7 +11,9 @@ namespace navcal::sim {
 /// its propeller (autopilot/thrust_curve.h) act as force T e and moment r x T e + Q e about the origin.
 class ThrusterForce {
  public:
-  ThrusterForce(const config::LayoutThruster& thruster, double density_kg_m3);
+  ThrusterForce(const config::LayoutThruster& thruster, double density_kg_m3)
+      : thruster_(thruster), density_kg_m3_(density_kg_m3),
+        of_thrust_(force_at(vector_of(thruster.place_m), vector_of(thruster.direction).normalized())) {}
 
   /// `position`: the command after lag and dead band, in the command's unit; `factor`: of the thrust, not the
   /// reaction.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/layout/lamb_factors.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "sim/layout/added_mass.h"
 
 namespace navcal::sim {
 namespace {

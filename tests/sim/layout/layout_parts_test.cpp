@@ -8,8 +8,7 @@
 
 #include "autopilot/thrust_curve.h"
 #include "sim/layout/added_mass.h"
-#include "sim/layout/flow_axes.h"
-#include "sim/layout/lamb_factors.h"
+#include "sim/layout/damping.h"
 #include "sim/layout/layout_vehicle.h"
 #include "sim/layout/rigid_body.h"
 
