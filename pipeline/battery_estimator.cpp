@@ -39,19 +39,19 @@ CurvePoint curve_at(const std::array<double, 8>& curve_V, double share) {
 
 }  // namespace
 
-BatteryEstimator::BatteryEstimator(const BatteryOptions& options) : options_(options) {
+BatteryEstimator::BatteryEstimator(const config::BatterySettings& settings) : settings_(settings) {
   // Unknown: all charges from none to full are alike.
-  state_[kCharge] = options.capacity_Ah / 2;
-  covariance_.diagonal() << std::pow(options.capacity_Ah, 2) / 12, std::pow(options.current_error, 2),
-      std::pow(options.hotel_error_A, 2), std::pow(options.voltage_error_V, 2);
+  state_[kCharge] = settings.capacity_Ah / 2;
+  covariance_.diagonal() << std::pow(settings.capacity_Ah, 2) / 12, std::pow(settings.current_error, 2),
+      std::pow(settings.hotel_error_A, 2), std::pow(settings.voltage_error_V, 2);
 }
 
 void BatteryEstimator::set(const BatteryCharge& charge) {
   if (!std::isfinite(charge.charge_Ah) || !std::isfinite(charge.std_Ah)) return;
-  state_[kCharge] = std::clamp(charge.charge_Ah, 0.0, options_.capacity_Ah);
+  state_[kCharge] = std::clamp(charge.charge_Ah, 0.0, settings_.capacity_Ah);
   covariance_.row(kCharge).setZero();
   covariance_.col(kCharge).setZero();
-  covariance_(kCharge, kCharge) = std::pow(std::clamp(charge.std_Ah, 0.0, options_.capacity_Ah), 2);
+  covariance_(kCharge, kCharge) = std::pow(std::clamp(charge.std_Ah, 0.0, settings_.capacity_Ah), 2);
   known_ = true;
 }
 
@@ -74,7 +74,7 @@ void BatteryEstimator::gauge(std::int64_t time_ns, const std::optional<double>& 
   voltage_ns_ = time_ns_;
   if (has_rested() && (!corrected_ns_ || *time_ns_ - *corrected_ns_ >= kCorrection_ns)) {
     corrected_ns_ = time_ns_;
-    correct(*voltage_V + options_.resistance_ohm * this->current_A().value_or(0));
+    correct(*voltage_V + settings_.resistance_ohm * this->current_A().value_or(0));
   }
 }
 
@@ -86,7 +86,7 @@ void BatteryEstimator::speed(std::int64_t time_ns, double speed_m_s) {
     mean_speed_m_s_ = size_m_s;
   } else {
     const double duration_s = static_cast<double>(*time_ns_ - *speed_ns_) * 1e-9;
-    *mean_speed_m_s_ += (1 - std::exp(-duration_s / options_.mean_s)) * (size_m_s - *mean_speed_m_s_);
+    *mean_speed_m_s_ += (1 - std::exp(-duration_s / settings_.mean_s)) * (size_m_s - *mean_speed_m_s_);
   }
   speed_ns_ = time_ns_;
 }
@@ -99,7 +99,7 @@ void BatteryEstimator::advance(std::int64_t time_ns) {
   const auto load_A = current_A();
   load_A ? count(duration_s, *load_A) : count_unseen(duration_s);
   hold_in_bounds();
-  if (!load_A || std::abs(*load_A) > options_.rest_A) {
+  if (!load_A || std::abs(*load_A) > settings_.rest_A) {
     rest_since_ns_.reset();
   } else if (!rest_since_ns_) {
     rest_since_ns_ = time_ns_;
@@ -117,33 +117,34 @@ void BatteryEstimator::count(double duration_s, double load_A) {
   state_[kCharge] -= taken_Ah;
   covariance_ = (transition * covariance_ * transition.transpose()).eval();
   wander(taken_Ah);
-  const double share = mean_load_A_ ? 1 - std::exp(-duration_s / options_.mean_s) : 1;
+  const double share = mean_load_A_ ? 1 - std::exp(-duration_s / settings_.mean_s) : 1;
   mean_load_A_ = mean_load_A_.value_or(0) + share * (load_A - mean_load_A_.value_or(0));
 }
 
 void BatteryEstimator::count_unseen(double duration_s) {
   const double hours = duration_s / kSecondsPerHour;
-  const double load_A = mean_load_A_.value_or(options_.hotel_A);
+  const double load_A = mean_load_A_.value_or(settings_.hotel_A);
   state_[kCharge] -= load_A * hours;
   // The error of an unseen load is constant too: the standard deviation grows by it, not the variance.
   const double std_Ah = std::sqrt(covariance_(kCharge, kCharge));
-  const double grown_Ah = std_Ah + std::max(load_A, options_.capacity_Ah / kUnseen_h) * hours;
+  const double grown_Ah = std_Ah + std::max(load_A, settings_.capacity_Ah / kUnseen_h) * hours;
   covariance_(kCharge, kCharge) = grown_Ah * grown_Ah;
   wander(load_A * hours);
 }
 
 /// The error of the curve forgets while charge is taken.
 void BatteryEstimator::wander(double taken_Ah) {
-  const double kept = std::exp(-std::abs(taken_Ah) / (kCurveShare * options_.capacity_Ah));
+  const double kept = std::exp(-std::abs(taken_Ah) / (kCurveShare * settings_.capacity_Ah));
   state_[kCurveError] *= kept;
   covariance_.row(kCurveError) *= kept;
   covariance_.col(kCurveError) *= kept;
-  covariance_(kCurveError, kCurveError) += (1 - kept * kept) * std::pow(options_.voltage_error_V, 2);
+  covariance_(kCurveError, kCurveError) += (1 - kept * kept) * std::pow(settings_.voltage_error_V, 2);
 }
 
 bool BatteryEstimator::has_rested() const {
-  const bool has_curve = options_.curve_V.back() > options_.curve_V.front();
-  return has_curve && rest_since_ns_ && static_cast<double>(*time_ns_ - *rest_since_ns_) * 1e-9 >= options_.rest_s;
+  const bool has_curve = settings_.curve_V.back() > settings_.curve_V.front();
+  return has_curve && rest_since_ns_ &&
+         static_cast<double>(*time_ns_ - *rest_since_ns_) * 1e-9 >= settings_.rest_s;
 }
 
 void BatteryEstimator::correct(double open_circuit_V) {
@@ -152,8 +153,8 @@ void BatteryEstimator::correct(double open_circuit_V) {
   Vector gain = Vector::Zero();
   Eigen::RowVector4d jacobian = Eigen::RowVector4d::Zero();
   for (int i = 0; i < kIterations; ++i) {
-    const CurvePoint point = curve_at(options_.curve_V, state_[kCharge] / options_.capacity_Ah);
-    jacobian[kCharge] = point.slope_V / options_.capacity_Ah;
+    const CurvePoint point = curve_at(settings_.curve_V, state_[kCharge] / settings_.capacity_Ah);
+    jacobian[kCharge] = point.slope_V / settings_.capacity_Ah;
     jacobian[kCurveError] = 1;
     const double variance_V2 = jacobian * covariance_ * jacobian.transpose() + kVoltageNoise_V * kVoltageNoise_V;
     gain = covariance_ * jacobian.transpose() / variance_V2;
@@ -169,7 +170,7 @@ void BatteryEstimator::correct(double open_circuit_V) {
 }
 
 void BatteryEstimator::hold_in_bounds() {
-  state_[kCharge] = std::clamp(state_[kCharge], 0.0, options_.capacity_Ah);
+  state_[kCharge] = std::clamp(state_[kCharge], 0.0, settings_.capacity_Ah);
 }
 
 bool BatteryEstimator::is_current(const Time& time_ns) const {
@@ -178,12 +179,12 @@ bool BatteryEstimator::is_current(const Time& time_ns) const {
 
 std::optional<BatteryCharge> BatteryEstimator::charge() const {
   if (!known_) return std::nullopt;
-  return BatteryCharge{state_[kCharge], std::min(std::sqrt(covariance_(kCharge, kCharge)), options_.capacity_Ah)};
+  return BatteryCharge{state_[kCharge], std::min(std::sqrt(covariance_(kCharge, kCharge)), settings_.capacity_Ah)};
 }
 
 std::optional<double> BatteryEstimator::current_A() const {
   if (measures_all()) return gauge_A_;
-  if (is_current(motor_ns_)) return motor_A_ + options_.hotel_A;
+  if (is_current(motor_ns_)) return motor_A_ + settings_.hotel_A;
   return std::nullopt;
 }
 

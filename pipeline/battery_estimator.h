@@ -2,26 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <optional>
 
+#include "config/settings.h"
 #include "pipeline/battery.h"
 
 namespace navcal::pipeline {
-
-struct BatteryOptions {
-  double capacity_Ah = 3.7;
-  double hotel_A = 0.5;
-  double hotel_error_A = 0.1;
-  double current_error = 0.05;    ///< relative
-  double voltage_error_V = 0.15;  ///< of the curve at one charge
-  double rest_A = 0.6;
-  double rest_s = 60;
-  double resistance_ohm = 0.2;
-  std::array<double, 8> curve_V{};  ///< open circuit, at charges 0, 1/7, ... 1 of the capacity; all 0: not known
-  double mean_s = 120;
-};
 
 /// Charge of a battery, with its standard deviation.
 ///
@@ -39,7 +26,7 @@ struct BatteryOptions {
 /// never decrease; an earlier one counts as the newest. No memory is taken after construction, and no clock read.
 class BatteryEstimator {
  public:
-  explicit BatteryEstimator(const BatteryOptions& options);
+  explicit BatteryEstimator(const config::BatterySettings& settings);
 
   /// The charge is known. Values are held between 0 and the capacity; what is not a number is left out.
   void set(const BatteryCharge& charge);
@@ -76,7 +63,7 @@ class BatteryEstimator {
   [[nodiscard]] bool has_rested() const;
   void hold_in_bounds();
 
-  BatteryOptions options_;
+  config::BatterySettings settings_;
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
   bool known_ = false;

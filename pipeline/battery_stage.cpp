@@ -18,29 +18,13 @@ constexpr double kLowVoltageHysteresis_V = 0.5;
 
 }  // namespace
 
-BatteryOptions battery_estimator_options(const config::BatterySettings& settings) {
-  BatteryOptions options;
-  options.capacity_Ah = settings.capacity_Ah;
-  options.hotel_A = settings.hotel_A;
-  options.hotel_error_A = settings.hotel_error_A;
-  options.current_error = settings.current_error;
-  options.voltage_error_V = settings.voltage_error_V;
-  options.rest_A = settings.rest_A;
-  options.rest_s = settings.rest_s;
-  options.resistance_ohm = settings.resistance_ohm;
-  options.curve_V = settings.curve_V;
-  options.mean_s = settings.mean_s;
-  return options;
-}
-
 std::unique_ptr<BatteryStage> BatteryStage::make(const config::Settings& settings) {
   if (!settings.battery.enabled) return nullptr;
   return std::make_unique<BatteryStage>(settings.battery);
 }
 
 BatteryStage::BatteryStage(const config::BatterySettings& settings)
-    : settings_(settings), interval_ns_(std::llround(settings.interval_s * 1e9)),
-      estimator_(battery_estimator_options(settings)) {}
+    : settings_(settings), interval_ns_(std::llround(settings.interval_s * 1e9)), estimator_(settings) {}
 
 void BatteryStage::take(const instruments::Sample& sample, const std::optional<NavigationSample>& navigation,
                         const UtcMapping& mapping, Sink& sink) {

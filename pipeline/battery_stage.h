@@ -48,7 +48,4 @@ class BatteryStage {
   std::optional<BatterySample> newest_;
 };
 
-/// Configuration of the estimator, in its units.
-[[nodiscard]] BatteryOptions battery_estimator_options(const config::BatterySettings& settings);
-
 }  // namespace navcal::pipeline

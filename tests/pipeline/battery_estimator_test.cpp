@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t kBatterySecond_ns = 1'000'000'000;
 
-BatteryOptions thesis_pack() {
-  BatteryOptions options;
+config::BatterySettings thesis_pack() {
+  config::BatterySettings options;
   options.curve_V = {18.0, 20.7, 21.5, 21.9, 22.5, 23.2, 24.1, 25.1};
   return options;
 }
@@ -114,7 +114,7 @@ TEST_F(BatteryEstimatorTest, VoltageUnderLoadDoesNotCorrect) {
 }
 
 TEST_F(BatteryEstimatorTest, WithoutACurveTheVoltageDoesNotCorrect) {
-  BatteryOptions options = thesis_pack();
+  config::BatterySettings options = thesis_pack();
   options.curve_V = {};
   battery_ = BatteryEstimator(options);
   battery_.set({3.7, 0.5});
@@ -180,7 +180,7 @@ TEST(BatteryCoverage, ErrorsLieWithinTwoStatedStandardDeviations) {
   int within = 0;
   double square_Ah2 = 0;
   for (int mission = 0; mission < kMissions; ++mission) {
-    BatteryOptions options = thesis_pack();
+    config::BatterySettings options = thesis_pack();
     BatteryEstimator battery(options);
     const double scale = 1 + options.current_error * normal(random);
     const double hotel_A = options.hotel_A + options.hotel_error_A * normal(random);

@@ -58,7 +58,7 @@ struct Discharge {
 };
 
 /// True errors as large as the estimator is told.
-Discharge draw(sim::Noise& noise, const pipeline::BatteryOptions& options, double charge_Ah) {
+Discharge draw(sim::Noise& noise, const config::BatterySettings& options, double charge_Ah) {
   sim::Battery::Options truth;
   truth.charge_Ah = charge_Ah;
   truth.hotel_A = std::max(0.0, options.hotel_A + noise.normal(options.hotel_error_A));
@@ -66,8 +66,8 @@ Discharge draw(sim::Noise& noise, const pipeline::BatteryOptions& options, doubl
           noise.normal(options.voltage_error_V)};
 }
 
-pipeline::BatteryOptions thesis_battery() {
-  pipeline::BatteryOptions options;
+config::BatterySettings thesis_battery() {
+  config::BatterySettings options;
   options.curve_V = sim::Battery::Options{}.curve_V;
   return options;
 }
