@@ -26,7 +26,7 @@ char32_t take_character(std::string_view& text) {
   return whole ? character : kNoCharacter;
 }
 
-/// Quotes a text; every character that is not ASCII is escaped (see document_bounds.h).
+/// Quotes a text; every character that is not ASCII is escaped (see beyond_bounds() in document.cpp).
 std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   while (!text.empty()) {
