@@ -2,7 +2,7 @@
 #include "config/roles.h"
 
 #include "config/settings.h"
-#include "protocols/described/delivery.h"
+#include "protocols/described/description.h"
 #include "protocols/device_types.h"
 
 namespace navcal::config {
@@ -34,6 +34,25 @@ bool delivers_role(const protocols::Delivery& delivers, Role role) {
   return delivers.water_velocity;
 }
 
+/// What a device with this description measures.
+protocols::Delivery delivery_of(const protocols::described::Description& description) {
+  const auto sends = [&](protocols::described::Meaning meaning) { return has(description, meaning); };
+  using enum protocols::described::Meaning;
+  protocols::Delivery delivers;
+  delivers.field = sends(field_x);
+  delivers.heading = delivers.field || sends(heading) || sends(heading_true);
+  delivers.rates = sends(rate_x);
+  delivers.acceleration = sends(specific_force_x);
+  delivers.depth = sends(depth) || sends(pressure);
+  delivers.position = sends(latitude);
+  delivers.velocity = sends(speed);
+  delivers.shaft = sends(rpm);
+  delivers.altitude = sends(altitude);
+  delivers.bottom_velocity = sends(bottom_velocity_x) || sends(bottom_velocity_north);
+  delivers.water_velocity = sends(water_velocity_x) || sends(water_velocity_north);
+  return delivers;
+}
+
 }  // namespace
 
 bool can_deliver(protocols::Protocol protocol, Role role) {
@@ -43,7 +62,7 @@ bool can_deliver(protocols::Protocol protocol, Role role) {
 }
 
 bool can_deliver(const PortSettings& port, Role role) {
-  if (port.described) return delivers_role(protocols::described::delivery_of(*port.described), role);
+  if (port.described) return delivers_role(delivery_of(*port.described), role);
   return can_deliver(port.protocol, role);
 }
 
