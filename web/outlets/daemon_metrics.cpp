@@ -6,7 +6,6 @@
 
 #include "base/angles.h"
 #include "web/outlets/json_members.h"
-#include "web/outlets/port_metrics.h"
 
 namespace navcal::web {
 namespace {
@@ -27,6 +26,19 @@ template <std::size_t N>
 void append_members(Exposition& out, const json& object, const std::array<DaemonMember, N>& members) {
   for (const DaemonMember& member : members)
     out.single(member.name, member.type, member.help, scaled(number_in(object, member.key), member.factor));
+}
+
+using Objects = std::vector<const json*>;
+
+/// The same of several objects, which the text at `label` tells apart.
+template <std::size_t N>
+void append_members(Exposition& out, const Objects& objects, const char* label,
+                    const std::array<DaemonMember, N>& members) {
+  for (const DaemonMember& member : members) {
+    out.metric(member.name, member.type, member.help);
+    for (const json* one : objects)
+      out.sample({{label, text_in(*one, label)}}, scaled(number_in(*one, member.key), member.factor));
+  }
 }
 
 constexpr std::array kHealthMembers{
@@ -142,6 +154,96 @@ void append_alarms(Exposition& out, const json& health) {
   }
 }
 
+constexpr std::array kPortStates{"running", "silent", "no_frames", "noisy", "away", "off"};
+
+constexpr std::array kPortCounters{
+    DaemonMember{"opened", "navcald_port_opened_total", counter, "Times that the port was opened."},
+    DaemonMember{"bytes", "navcald_port_bytes_total", counter, "Bytes received."},
+    DaemonMember{"skipped", "navcald_port_skipped_bytes_total", counter,
+                 "Bytes received that belong to no frame."},
+    DaemonMember{"frames", "navcald_port_frames_total", counter, "Intact frames."},
+    DaemonMember{"samples", "navcald_port_samples_total", counter, "Samples made of the frames."},
+    DaemonMember{"bad", "navcald_port_bad_checksums_total", counter, "Frames with a wrong checksum."},
+    DaemonMember{"unused", "navcald_port_unused_frames_total", counter, "Intact frames that gave no sample."},
+    DaemonMember{"out_of_range", "navcald_port_out_of_range_frames_total", counter,
+                 "Intact frames with impossible content."},
+    DaemonMember{"gaps", "navcald_port_gaps_total", counter,
+                 "Incomplete frames that were given up after a silence."},
+    DaemonMember{"lost", "navcald_port_lost_frames_total", counter, "Frames missing by sequence number or clock."},
+    DaemonMember{"repeated", "navcald_port_repeated_frames_total", counter, "Frames that came twice."}};
+
+/// Bounds of the histogram in seconds: 1, 2, 4, ... microseconds. The daemon's last bucket has none.
+constexpr std::size_t kLatencyBounds = 20;
+
+std::array<double, kLatencyBounds> latency_bounds_s() {
+  std::array<double, kLatencyBounds> bounds{};
+  double bound_us = 1;
+  for (double& bound : bounds) {
+    bound = bound_us / 1e6;
+    bound_us *= 2;
+  }
+  return bounds;
+}
+
+void append_port_states(Exposition& out, const Objects& ports) {
+  out.metric("navcald_port_state", gauge, "1 for the state in which the port is, 0 for others.");
+  for (const json* port : ports) {
+    const std::string state = text_in(*port, "state"), device = text_in(*port, "device");
+    if (state.empty()) continue;
+    for (const char* known : kPortStates)
+      out.sample({{"device", device}, {"state", known}}, state == known ? 1.0 : 0.0);
+  }
+}
+
+void append_port_clocks(Exposition& out, const Objects& ports) {
+  const auto of_each = [&](const char* name, const char* help, auto&& value) {
+    out.metric(name, gauge, help);
+    for (const json* port : ports)
+      out.sample({{"device", text_in(*port, "device")}}, value(member_of(*port, "clock")));
+  };
+  constexpr double kPpm = 1e-6;
+  of_each("navcald_port_clock_locked", "1 when the clock of the device is known.",
+          [](const json& clock) { return flag_in(clock, "locked"); });
+  of_each("navcald_port_period_seconds", "Period of the frames, as it was learnt.",
+          [](const json& clock) { return number_in(clock, "period_s"); });
+  of_each("navcald_port_jitter_seconds", "Scatter of the arrivals about the clock of the device.",
+          [](const json& clock) { return number_in(clock, "jitter_s"); });
+  of_each("navcald_port_clock_skew_ratio", "Rate of the clock of the device, less one.",
+          [](const json& clock) { return scaled(number_in(clock, "skew_ppm"), kPpm); });
+  of_each("navcald_port_clock_skew_std_ratio", "Standard error of navcald_port_clock_skew_ratio.",
+          [](const json& clock) { return scaled(number_in(clock, "skew_std_ppm"), kPpm); });
+  out.metric("navcald_port_clock_resets_total", counter, "Times that the clock of the device was learnt anew.");
+  for (const json* port : ports)
+    out.sample({{"device", text_in(*port, "device")}}, number_in(member_of(*port, "clock"), "resets"));
+}
+
+void append_port_latencies(Exposition& out, const Objects& ports) {
+  static const auto kBounds_s = latency_bounds_s();
+  out.metric("navcald_port_latency_seconds", histogram,
+             "Time from the arrival of a sample's bytes to the status socket.");
+  for (const json* port : ports) {
+    const json& list = member_of(*port, "latency_log2_us");
+    if (!list.is_array()) continue;
+    std::vector<std::uint64_t> counts;
+    for (const json& count : list) counts.push_back(count.is_number_unsigned() ? count.get<std::uint64_t>() : 0);
+    out.histogram({{"device", text_in(*port, "device")}}, kBounds_s, counts, number_in(*port, "latency_sum_s"));
+  }
+}
+
+/// The ports of all lines of one HEALTH: state, counters, clock and latency.
+void append_ports(Exposition& out, const std::vector<json>& health_parts) {
+  Objects ports;
+  for (const json& part : health_parts) {
+    for (const json& port : member_of(part, "ports")) {
+      if (port.is_object() && !text_in(port, "device").empty()) ports.push_back(&port);
+    }
+  }
+  append_port_states(out, ports);
+  append_members(out, ports, "device", kPortCounters);
+  append_port_clocks(out, ports);
+  append_port_latencies(out, ports);
+}
+
 }  // namespace
 
 void append_health(Exposition& out, const std::vector<json>& parts) {
@@ -197,18 +299,16 @@ void append_navigation(Exposition& out, const json& nav) {
 }
 
 void append_batteries(Exposition& out, const std::vector<json>& batteries) {
-  for (const DaemonMember& member : kBatteryMembers) {
-    out.metric(member.name, member.type, member.help);
-    for (const json& battery : batteries)
-      out.sample({{"device", text_in(battery, "device")}}, scaled(number_in(battery, member.key), member.factor));
-  }
+  Objects each;
+  for (const json& battery : batteries) each.push_back(&battery);
+  append_members(out, each, "device", kBatteryMembers);
   out.metric("navcald_battery_low", gauge, "1 while the alarm of the battery stands.");
   for (const json& battery : batteries)
     out.sample({{"device", text_in(battery, "device")}}, flag_in(battery, "low"));
 }
 
 void append_calibration(Exposition& out, const std::vector<json>& parts) {
-  std::vector<const json*> calibrators;
+  Objects calibrators;
   for (const json& part : parts) {
     for (const json& one : member_of(part, "calibrators")) {
       if (one.is_object()) calibrators.push_back(&one);
@@ -221,12 +321,7 @@ void append_calibration(Exposition& out, const std::vector<json>& parts) {
     for (const char* known : kVerdicts)
       out.sample({{"calibrator", name}, {"verdict", known}}, verdict == known ? 1.0 : 0.0);
   }
-  for (const DaemonMember& member : kCalibratorMembers) {
-    out.metric(member.name, member.type, member.help);
-    for (const json* one : calibrators)
-      out.sample({{"calibrator", text_in(*one, "calibrator")}},
-                 scaled(number_in(*one, member.key), member.factor));
-  }
+  append_members(out, calibrators, "calibrator", kCalibratorMembers);
 }
 
 }  // namespace navcal::web
