@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace navcal::calib {
 
@@ -47,6 +48,13 @@ struct Judgement {
   // Root-mean-square on held-out readings, without and with the estimate; 0 when there were none.
   double held_out_before = 0;
   double held_out_after = 0;
+
+  [[nodiscard]] Judgement refused(std::string why, std::string remedy) const {
+    Judgement judgement = *this;
+    judgement.reason = std::move(why);
+    judgement.manoeuvre = std::move(remedy);
+    return judgement;
+  }
 };
 
 }  // namespace navcal::calib

@@ -16,9 +16,8 @@ Judgement GpsCompass::judgement() const {
   judgement.coverage = static_cast<double>(visited(rose_)) / static_cast<double>(rose_.size());
   judgement.condition = std::numeric_limits<double>::infinity();
   if (!estimate_) {
-    judgement.reason = "too few fixes at the surface, under way";
-    judgement.manoeuvre = "drive at the surface through all headings, turning to both sides, for some minutes";
-    return judgement;
+    return judgement.refused("too few fixes at the surface, under way",
+                             "drive at the surface through all headings, turning to both sides, for some minutes");
   }
   // The condition number refers to the covariance scaled to unit diagonal. It tells how well the unknowns are
   // separated.

@@ -64,9 +64,8 @@ Judgement Misalignment::judgement() const {
   Judgement judgement;
   const auto found = estimate();
   if (!found) {
-    judgement.reason = "no straight run at the surface yet";
-    judgement.manoeuvre = "run straight at the surface, 100 m or more, then the same way back";
-    return judgement;
+    return judgement.refused("no straight run at the surface yet",
+                             "run straight at the surface, 100 m or more, then the same way back");
   }
   judgement.samples = found->runs;
   judgement.coverage = found->direction_balance;
@@ -75,17 +74,14 @@ Judgement Misalignment::judgement() const {
   const bool contradict = found->scatter > parameters_.most_scatter;
   judgement.accepted = found->offset_std_rad <= parameters_.accepted_std_rad && !contradict;
   if (judgement.accepted) return judgement;
-  if (contradict) {
-    judgement.reason = "the runs contradict each other: the error of the heading depends on the heading";
-    judgement.manoeuvre = "calibrate the compass first: turn full circles, both ways round";
-  } else if (least <= parameters_.accepted_std_rad) {
-    judgement.reason = "all runs lead one way: a current could feign the misalignment";
-    judgement.manoeuvre = "run straight the other way, as long again";
-  } else {
-    judgement.reason = "the runs are too short for fixes of this accuracy";
-    judgement.manoeuvre = "run straight at the surface, 100 m or more, both ways";
-  }
-  return judgement;
+  if (contradict)
+    return judgement.refused("the runs contradict each other: the error of the heading depends on the heading",
+                             "calibrate the compass first: turn full circles, both ways round");
+  if (least <= parameters_.accepted_std_rad)
+    return judgement.refused("all runs lead one way: a current could feign the misalignment",
+                             "run straight the other way, as long again");
+  return judgement.refused("the runs are too short for fixes of this accuracy",
+                           "run straight at the surface, 100 m or more, both ways");
 }
 
 void Misalignment::archive(Archive& archive) {

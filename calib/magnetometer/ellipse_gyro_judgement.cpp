@@ -48,34 +48,29 @@ Judgement EllipseGyro::judgement() const {
   Judgement judgement;
   judgement.samples = samples_;
   judgement.condition = std::numeric_limits<double>::infinity();
-  const auto refuse = [&](std::string reason, std::string manoeuvre) {
-    judgement.reason = std::move(reason);
-    judgement.manoeuvre = std::move(manoeuvre);
-    return judgement;
-  };
-  if (!shape_found_) return refuse("the field has hardly changed", "turn through a full circle");
+  if (!shape_found_) return judgement.refused("the field has hardly changed", "turn through a full circle");
   judgement.condition = condition_of(chain_.covariance);
   const FieldCoverage coverage(chain_.headings_rad);
   judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
   // Noise alone makes a small circle, on which headings lie anywhere.
   if (chain_.shape.radius_uT() < 30 * parameters_.noise_uT)
-    return refuse("the field has hardly changed", "turn through a full circle");
+    return judgement.refused("the field has hardly changed", "turn through a full circle");
   if (coverage.arc_rad() < kLeastArc_rad) {
-    return refuse(
+    return judgement.refused(
         "headings within " + whole_degrees(coverage.arc_rad()) + " degrees do not tell the field's offset",
         coverage.manoeuvre(kFullTurn_rad / 3));
   }
   if (chain_.misfit > kMostMisfit) {
-    return refuse("field and gyro disagree: residuals are " + rounded(std::sqrt(chain_.misfit), 1) +
-                      " times what their noise explains",
-                  "calibrate the gyro first, and keep clear of iron");
+    return judgement.refused("field and gyro disagree: residuals are " + rounded(std::sqrt(chain_.misfit), 1) +
+                                 " times what their noise explains",
+                             "calibrate the gyro first, and keep clear of iron");
   }
   const double worst_rad = worst_heading_std_rad(chain_.shape, stated_covariance(parameters_.model_error_uT));
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(chain_.shape))) {
-    return refuse("the heading would be uncertain by " + rounded(worst_rad / base::kRadiansPerDegree, 1) +
-                      " degrees where it is worst",
-                  coverage.manoeuvre(kFullTurn_rad));
+    return judgement.refused("the heading would be uncertain by " +
+                                 rounded(worst_rad / base::kRadiansPerDegree, 1) + " degrees where it is worst",
+                             coverage.manoeuvre(kFullTurn_rad));
   }
   judgement.accepted = true;
   return judgement;

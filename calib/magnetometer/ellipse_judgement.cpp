@@ -91,17 +91,12 @@ Judgement EllipseEstimator::judgement() const {
   Judgement judgement;
   judgement.samples = samples_;
   judgement.condition = std::numeric_limits<double>::infinity();
-  const auto refuse = [&](std::string reason, std::string manoeuvre) {
-    judgement.reason = std::move(reason);
-    judgement.manoeuvre = std::move(manoeuvre);
-    return judgement;
-  };
-  if (!fit_) return refuse("the field has hardly changed", "turn through a full circle");
+  if (!fit_) return judgement.refused("the field has hardly changed", "turn through a full circle");
   judgement.condition = condition_of(fit_->covariance);
   judgement.held_out_before = held_out_.before_uT();
   judgement.held_out_after = held_out_.after_uT();
   if (fit_->shape.radius_uT() < kLeastSize * fit_->residual_uT) {
-    return refuse("the field changed by no more than its noise", "turn through a full circle");
+    return judgement.refused("the field changed by no more than its noise", "turn through a full circle");
   }
   std::vector<double> headings;
   for (const auto& cell : cells_.cells()) {
@@ -112,22 +107,23 @@ Judgement EllipseEstimator::judgement() const {
   const FieldCoverage coverage(std::move(headings));
   judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
   if (coverage.arc_rad() < parameters_.least_arc_rad) {
-    return refuse("headings within " + whole_degrees(coverage.arc_rad()) +
-                      " degrees do not tell the field's offset from its size",
-                  coverage.manoeuvre(parameters_.least_arc_rad));
+    return judgement.refused("headings within " + whole_degrees(coverage.arc_rad()) +
+                                 " degrees do not tell the field's offset from its size",
+                             coverage.manoeuvre(parameters_.least_arc_rad));
   }
   const double worst_rad =
       worst_heading_std_rad(fit_->shape, stated_covariance(*fit_, cells_.cells(), parameters_.model_error_uT));
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(fit_->shape))) {
-    return refuse("the heading would be uncertain by " + rounded(worst_rad * (180 / std::numbers::pi), 1) +
-                      " degrees where it is worst",
-                  coverage.arc_rad() < 0.9 * kFullTurn_rad ? coverage.manoeuvre(kFullTurn_rad)
-                                                           : "turn through more full circles, evenly and level");
+    return judgement.refused("the heading would be uncertain by " +
+                                 rounded(worst_rad * (180 / std::numbers::pi), 1) + " degrees where it is worst",
+                             coverage.arc_rad() < 0.9 * kFullTurn_rad
+                                 ? coverage.manoeuvre(kFullTurn_rad)
+                                 : "turn through more full circles, evenly and level");
   }
   if (curvature_of(*fit_, cells_.cells()) > kMostCurvature) {
-    return refuse("the readings fit ellipses too different from each other to state an error",
-                  coverage.manoeuvre(kFullTurn_rad));
+    return judgement.refused("the readings fit ellipses too different from each other to state an error",
+                             coverage.manoeuvre(kFullTurn_rad));
   }
   judgement.accepted = true;
   return judgement;

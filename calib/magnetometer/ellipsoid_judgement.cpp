@@ -64,12 +64,8 @@ Judgement EllipsoidEstimator::judgement() const {
   Judgement judgement;
   judgement.samples = samples_;
   judgement.condition = std::numeric_limits<double>::infinity();
-  const auto refuse = [&](std::string reason, std::string manoeuvre) {
-    judgement.reason = std::move(reason);
-    judgement.manoeuvre = std::move(manoeuvre);
-    return judgement;
-  };
-  if (!fit_) return refuse("the field has hardly changed", "turn through a full circle, rolling and pitching");
+  if (!fit_)
+    return judgement.refused("the field has hardly changed", "turn through a full circle, rolling and pitching");
   judgement.condition = condition_of(fit_->covariance);
   judgement.held_out_before = held_out_.before_uT();
   judgement.held_out_after = held_out_.after_uT();
@@ -90,9 +86,9 @@ Judgement EllipsoidEstimator::judgement() const {
   judgement.coverage = all_round ? 1 : coverage.arc_rad() / kFullTurn_rad;
   const std::string tilt_more = "turn through a full circle with roll or pitch beyond ";
   if (coverage.arc_rad() < kLeastArc_rad && tilt_rad < 60 * base::kRadiansPerDegree && !all_round) {
-    return refuse("headings within " + whole_degrees(coverage.arc_rad()) + " degrees, tilt within " +
-                      whole_degrees(tilt_rad) + " degrees do not tell the field's offset from its size",
-                  coverage.manoeuvre(kFullTurn_rad));
+    return judgement.refused("headings within " + whole_degrees(coverage.arc_rad()) + " degrees, tilt within " +
+                                 whole_degrees(tilt_rad) + " degrees do not tell the field's offset from its size",
+                             coverage.manoeuvre(kFullTurn_rad));
   }
   const double centre = fit_->shape.centre_uT.norm();
   const double field = parameters_.known ? parameters_.known->magnitude_uT : fit_->shape.radius_uT();
@@ -101,22 +97,24 @@ Judgement EllipsoidEstimator::judgement() const {
   const auto covariance = stated_covariance(*fit_, all, noise_, relative);
   const double vertical_uT = std::sqrt(covariance(2, 2));
   if (centre - 2 * vertical_uT > field && tilt_rad < 45 * base::kRadiansPerDegree) {
-    return refuse("the hard iron of " + rounded(centre, 0) + " uT exceeds the Earth's field, and tilt within " +
-                      whole_degrees(tilt_rad) + " degrees does not determine it",
-                  tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
+    return judgement.refused("the hard iron of " + rounded(centre, 0) +
+                                 " uT exceeds the Earth's field, and tilt within " + whole_degrees(tilt_rad) +
+                                 " degrees does not determine it",
+                             tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
   }
   // The limit is a tenth of a large hard iron, even where that exceeds the usual limit: removing the rest is a
   // gain. Only the horizontal offset counts, because an error could imitate a vertical offset.
   if (vertical_uT > std::max(parameters_.offset_std_uT, 0.1 * fit_->shape.centre_uT.head<2>().norm())) {
-    return refuse("the vertical offset is uncertain by " + rounded(vertical_uT, 1) + " uT: " +
-                      (tilt_rad < kMostTilt_rad ? "tilt stayed within " : "too little was seen at tilts up to ") +
-                      whole_degrees(tilt_rad) + " degrees",
-                  tilt_manoeuvre(tilt_rad));
+    return judgement.refused(
+        "the vertical offset is uncertain by " + rounded(vertical_uT, 1) +
+            " uT: " + (tilt_rad < kMostTilt_rad ? "tilt stayed within " : "too little was seen at tilts up to ") +
+            whole_degrees(tilt_rad) + " degrees",
+        tilt_manoeuvre(tilt_rad));
   }
   const double worst_rad = worst_heading_std_rad(fit_->shape, covariance, parameters_.expected_tilt_rad);
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(fit_->shape))) {
-    return refuse(
+    return judgement.refused(
         "the heading would be uncertain by " + rounded(worst_rad / base::kRadiansPerDegree, 1) +
             " degrees where it is worst",
         coverage.arc_rad() < 0.9 * kFullTurn_rad ? coverage.manoeuvre(kFullTurn_rad) : tilt_manoeuvre(tilt_rad));

@@ -69,25 +69,22 @@ Judgement MotorCurrent::judgement() const {
   judgement.condition = std::numeric_limits<double>::infinity();
   judgement.held_out_before = comparison_.before_rms();
   judgement.held_out_after = comparison_.estimate_rms();
-  const auto refuse = [&](std::string reason, std::string what_to_do) {
-    judgement.reason = std::move(reason);
-    judgement.manoeuvre = std::move(what_to_do);
-    return judgement;
-  };
-  if (!current_seen_) return refuse("the motor card reports no current", "");
+  if (!current_seen_) return judgement.refused("the motor card reports no current", "");
   const auto found = estimate();
-  if (!found) return refuse("the motor's current has hardly changed while the field was read", manoeuvre);
+  if (!found)
+    return judgement.refused("the motor's current has hardly changed while the field was read", manoeuvre);
   const Eigen::Vector3d eigenvalues = found->covariance.selfadjointView<Eigen::Lower>().eigenvalues();
   judgement.condition = eigenvalues[2] / eigenvalues[0];
   const double std = std::sqrt(found->covariance.diagonal().maxCoeff());
   const double limit = std::max(kAccurate_uT_per_A, kAccurate * found->slope_uT_per_A.norm());
   judgement.coverage = std::min(1.0, limit * limit / (std * std));
   if (std > limit) {
-    return refuse("the field per ampere is uncertain by " + two_digits(std) + " uT/A", manoeuvre);
+    return judgement.refused("the field per ampere is uncertain by " + two_digits(std) + " uT/A", manoeuvre);
   }
   const double chi_square = found->slope_uT_per_A.dot(found->covariance.ldlt().solve(found->slope_uT_per_A));
   if (chi_square < kSeen) {
-    return refuse("no field of the motor's current is seen beyond the error of " + two_digits(std) + " uT/A", "");
+    return judgement.refused(
+        "no field of the motor's current is seen beyond the error of " + two_digits(std) + " uT/A", "");
   }
   judgement.accepted = true;
   return judgement;

@@ -132,21 +132,19 @@ Judgement HeadingReference::judgement(double declination_rad) const {
   judgement.condition = std::numeric_limits<double>::infinity();
   const auto found = estimate(declination_rad);
   if (!found) {
-    judgement.reason = pairs_ == 0 ? "no heading of the compass at the time of a reference so far"
-                                   : "too few headings of the reference";
-    judgement.manoeuvre = "turn through all headings while the reference is in sight";
-    return judgement;
+    return judgement.refused(pairs_ == 0 ? "no heading of the compass at the time of a reference so far"
+                                         : "too few headings of the reference",
+                             "turn through all headings while the reference is in sight");
   }
   const Vector& x = found->coefficients;
   const double removed_rad = std::sqrt(x[0] * x[0] + x.segment<4>(1).squaredNorm() / 2);
   const double least_rad2 = found->covariance.diagonal().head<5>().minCoeff();
   judgement.condition = found->worst_std_rad / std::sqrt(std::max(least_rad2, 1e-300));
   if (blocks_.size() < kLeastBlocks && block_s_ == kFirstBlock_s) {
-    judgement.reason = "the reference was in sight for less than " +
-                       std::to_string(std::lround(kFirstBlock_s * kLeastBlocks)) +
-                       " s, too short to know how long its errors last";
-    judgement.manoeuvre = "go on through all headings while the reference is in sight";
-    return judgement;
+    return judgement.refused("the reference was in sight for less than " +
+                                 std::to_string(std::lround(kFirstBlock_s * kLeastBlocks)) +
+                                 " s, too short to know how long its errors last",
+                             "go on through all headings while the reference is in sight");
   }
   judgement.accepted = found->worst_std_rad <= accepted_heading_std_rad(parameters_.accepted_std_rad, removed_rad);
   if (judgement.accepted) return judgement;

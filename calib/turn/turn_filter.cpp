@@ -11,6 +11,9 @@
 namespace navcal::calib {
 namespace {
 
+/// Far beyond any scale, bias (rad/s) or deviation (rad), and still no limit to the accuracy of doubles.
+constexpr double kUnknownTurnStd = 10;
+
 /// Scales and biases (rad/s) are hardly more wrong than this; for weights and unwrapping only.
 constexpr double kLikelyError = 0.05;
 
@@ -25,6 +28,54 @@ constexpr int kConstants[] = {kScale, kB, kC, kD, kE};
 constexpr std::uint64_t kEnoughInnovations = 50;
 
 }  // namespace
+
+TurnPrior TurnPrior::unknown_gyro() {
+  TurnPrior prior;
+  for (int i : {kScale, kBias}) {
+    prior.covariance(i, i) = kUnknownTurnStd * kUnknownTurnStd;
+    prior.sought[static_cast<std::size_t>(i)] = true;
+  }
+  return prior;
+}
+
+TurnPrior TurnPrior::unknown_compass(double scale, double bias_rad_s, const Eigen::Matrix2d& gyro_covariance) {
+  TurnPrior prior = unknown_both();
+  prior.mean[kScale] = scale;
+  prior.mean[kBias] = bias_rad_s;
+  prior.covariance.topLeftCorner<2, 2>() = gyro_covariance;
+  prior.sought[kScale] = prior.sought[kBias] = false;
+  return prior;
+}
+
+TurnPrior TurnPrior::unknown_both() {
+  TurnPrior prior;
+  prior.covariance.diagonal().setConstant(kUnknownTurnStd * kUnknownTurnStd);
+  prior.sought.fill(true);
+  return prior;
+}
+
+void TurnNoise::start(const Row& direction, double variance) {
+  heading_ = variance * direction * direction.transpose();
+  heading_bias_.setZero();
+}
+
+void TurnNoise::predict(double bias_time_s, const Row& direction, double variance) {
+  heading_ += bias_time_s * (heading_bias_ + heading_bias_.transpose()) + bias_time_s * bias_time_s * bias_ +
+              variance * direction * direction.transpose();
+  heading_bias_ += bias_time_s * bias_;
+}
+
+void TurnNoise::correct(const Row& direction, double variance, double innovation_variance,
+                        const Eigen::Vector2d& gain) {
+  const Products of_reading = variance * direction * direction.transpose();
+  const Products of_row = heading_ + of_reading;
+  expected_ += of_row / innovation_variance;
+  // The rows of heading and bias each lose gain times the innovation's row.
+  const Products mixed = heading_bias_ + heading_bias_.transpose();
+  bias_ += gain[1] * gain[1] * of_row - gain[1] * mixed;
+  heading_bias_ = (1 - gain[0]) * (heading_bias_ - gain[1] * heading_) + gain[0] * gain[1] * of_reading;
+  heading_ = (1 - gain[0]) * (1 - gain[0]) * heading_ + gain[0] * gain[0] * of_reading;
+}
 
 TurnFilter::TurnFilter(const Parameters& parameters, const TurnPrior& prior)
     : parameters_(parameters), prior_(prior) {

@@ -2,14 +2,63 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 
 #include "calib/archive.h"
-#include "calib/turn/turn_noise.h"
-#include "calib/turn/turn_prior.h"
 #include "calib/turn/turn_step.h"
 
 namespace navcal::calib {
+
+/// Scale and bias of a yaw gyro, true rate = scale * measured + bias (2.12), and the deviation B, C, D, E of a
+/// compass, psi = psi_m - A - f4(psi_m)'q (2.7, 2.8); rad/s and radians. A is in no turn: it stays in the heading.
+using TurnCoefficients = Eigen::Matrix<double, 6, 1>;
+using TurnCovariance = Eigen::Matrix<double, 6, 6>;
+enum TurnCoefficient : int { kScale, kBias, kB, kC, kD, kE };
+
+/// Prior of the coefficients. A variance of zero fixes a coefficient: a compass without error, or a gyro that
+/// is known exactly. The covariance of an earlier gyro calibration serves as prior of the gyro.
+struct TurnPrior {
+  TurnCoefficients mean = TurnCoefficients::Unit(kScale);
+  TurnCovariance covariance = TurnCovariance::Zero();
+  std::array<bool, 6> sought{};  ///< those that are to be found: loose, and not correlated with any other
+
+  /// The compass has no error, the gyro is unknown (THESIS chapter 3).
+  [[nodiscard]] static TurnPrior unknown_gyro();
+  /// The gyro is known, the compass is not (section 4.2); the covariance that of (scale, bias).
+  [[nodiscard]] static TurnPrior unknown_compass(double scale, double bias_rad_s,
+                                                 const Eigen::Matrix2d& gyro_covariance);
+  /// Neither is known (the thesis's major problem, THESIS 11.3).
+  [[nodiscard]] static TurnPrior unknown_both();
+};
+
+/// Model: the row of an innovation, (innovation at the prior's constants; its gradient in scale, B, C, D, E),
+/// bears the noise of gyro and compass in its gradient, too, since measured rate and measured heading are
+/// regressors. This carries the second moments of that noise through TurnFilter's first stage and sums what noise
+/// alone puts into the products of rows. Rows are linear in the noise; of the harmonics that is to first order.
+/// Radians.
+class TurnNoise {
+ public:
+  using Row = Eigen::Matrix<double, 6, 1>;
+  using Products = Eigen::Matrix<double, 6, 6>;
+
+  /// Restarts the heading with one reading, whose noise enters a row along `direction`.
+  void start(const Row& direction, double variance);
+  /// The turn by gyro adds noise along `direction`.
+  void predict(double bias_time_s, const Row& direction, double variance);
+  /// A reading is weighed with 1/innovation_variance and moves heading and bias by `gain`.
+  void correct(const Row& direction, double variance, double innovation_variance, const Eigen::Vector2d& gain);
+
+  /// Expectation of the sum of row * row' / innovation_variance, as far as it is noise.
+  [[nodiscard]] const Products& expected() const { return expected_; }
+
+  void archive(Archive& archive) { archive(heading_, heading_bias_, bias_, expected_); }
+
+ private:
+  // Moments of the noise in the rows of heading and bias: heading with heading, with bias, bias with bias.
+  Products heading_ = Products::Zero(), heading_bias_ = Products::Zero(), bias_ = Products::Zero();
+  Products expected_ = Products::Zero();
+};
 
 /// Model: psi_m(n) - T(n) = psi0 + scale S1(n) + bias S2(n) + f4(psi_m(n))'q + heading noise (white) + scale times
 /// the integral of the gyro's rate noise (a random walk), S1, S2, T the sums of TurnStep (THESIS 11.7), psi0 one
