@@ -1,20 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/angles.h"
 #include "instruments/devices.h"
 #include "instruments/nmea_epoch.h"
-#include "instruments/nmea_sky.h"
+#include "instruments/samples.h"
 #include "instruments/units.h"
 #include "protocols/nmea_attitude.h"
+#include "protocols/nmea_position.h"
 
 namespace navcal::instruments {
 namespace {
 
 namespace nmea = protocols::nmea;
+
+/// Satellites in view from the GSV sentences of all talkers (GP, GL, GA, ...), those in use from GSA.
+class NmeaSky {
+ public:
+  void add_used(const nmea::Gsa& gsa);
+  /// The sky as it stands when a talker's group of sentences is complete.
+  std::optional<SkySample> add(std::string_view talker, const nmea::Gsv& gsv);
+
+ private:
+  [[nodiscard]] bool is_used(std::uint16_t number) const;
+
+  SkySample sky_;
+  std::array<std::uint16_t, SkySample::kMaxSatellites> talkers_{};  ///< of each satellite
+  std::vector<std::uint16_t> used_;  ///< of the newest GSA sentences, one for each system
+  bool used_is_whole_ = false;       ///< the next GSA begins anew
+};
+
+void NmeaSky::add_used(const nmea::Gsa& gsa) {
+  if (std::exchange(used_is_whole_, false) || used_.size() >= SkySample::kMaxSatellites) used_.clear();
+  used_.insert(used_.end(), gsa.satellites.begin(), gsa.satellites.begin() + static_cast<long>(gsa.count));
+}
+
+bool NmeaSky::is_used(std::uint16_t number) const {
+  return std::find(used_.begin(), used_.end(), number) != used_.end();
+}
+
+std::optional<SkySample> NmeaSky::add(std::string_view talker, const nmea::Gsv& gsv) {
+  used_is_whole_ = true;
+  const auto who = static_cast<std::uint16_t>(talker.size() < 2 ? 0 : talker[0] << 8 | talker[1]);
+  if (gsv.sentence == 1) {  // a new group of this talker: its former satellites are dropped
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < sky_.count; ++i) {
+      if (talkers_[i] == who) continue;
+      talkers_[kept] = talkers_[i];
+      sky_.satellites[kept++] = sky_.satellites[i];
+    }
+    sky_.count = kept;
+  }
+  for (std::size_t i = 0; i < gsv.count && sky_.count < SkySample::kMaxSatellites; ++i) {
+    const auto& seen = gsv.satellites[i];
+    SkySample::Satellite satellite;
+    satellite.prn = seen.number;
+    if (seen.elevation_deg) satellite.elevation_deg = *seen.elevation_deg;
+    if (seen.azimuth_deg) satellite.azimuth_deg = *seen.azimuth_deg;
+    if (seen.cn0_dBHz) satellite.cn0_dBHz = *seen.cn0_dBHz;
+    satellite.used = is_used(seen.number);
+    talkers_[sky_.count] = who;
+    sky_.satellites[sky_.count++] = satellite;
+  }
+  if (gsv.sentence < gsv.sentences) return std::nullopt;
+  return sky_;
+}
 
 Verdict give(const Value& value, bool paces, Receiver& receiver) {
   hand_over(value, receiver, paces);

@@ -12,7 +12,6 @@
 #include "config/settings.h"
 #include "instruments/clock_state.h"
 #include "instruments/samples.h"
-#include "pipeline/alarm_change.h"
 #include "pipeline/battery.h"
 #include "pipeline/calibration.h"
 #include "pipeline/earth_field.h"
@@ -22,6 +21,17 @@
 #include "protocols/frame.h"
 
 namespace navcal::pipeline {
+
+/// Alarms that follow from an estimate, not from a bit of an instrument.
+enum class EstimateAlarm : std::uint8_t { battery_low, floor_near };
+
+struct AlarmChange {
+  EstimateAlarm alarm{};
+  bool raised = false;
+  std::uint16_t port = 0;    ///< that of the instrument whose sample showed it
+  std::int64_t time_ns = 0;  ///< arrival of that sample, monotonic
+  std::string words{};       ///< the value and the limit, for people
+};
 
 /// Something about a port's stream that its user should know; told once.
 struct StreamEvent {

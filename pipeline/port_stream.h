@@ -10,7 +10,6 @@
 #include "instruments/frame_clock.h"
 #include "instruments/instrument.h"
 #include "instruments/mounting.h"
-#include "instruments/pressure_gate.h"
 #include "pipeline/arrival_track.h"
 #include "pipeline/gps_time_watch.h"
 #include "pipeline/pipeline.h"
@@ -18,6 +17,21 @@
 #include "protocols/parsers.h"
 
 namespace navcal::pipeline {
+
+/// Lets in the absolute pressures of one gauge: from the highest mountain lake to the deepest sea. A gauge that
+/// measures relative to the air, or to air that is sealed in it, says nearly zero at the surface. After three such
+/// readings in a row, which no damaged frame makes, it is not believed below the surface either.
+class PressureGate {
+ public:
+  [[nodiscard]] bool lets_in(double pressure_Pa) {
+    constexpr int kRelative = 3;
+    if (lows_ < kRelative) lows_ = pressure_Pa < 30e3 ? lows_ + 1 : 0;
+    return lows_ == 0 && pressure_Pa <= 150e6;
+  }
+
+ private:
+  int lows_ = 0;
+};
 
 /// One port's way from bytes to stamped samples.
 class PortStream : private instruments::Receiver {
@@ -49,7 +63,7 @@ class PortStream : private instruments::Receiver {
   ArrivalTrack track_;
   std::unique_ptr<instruments::Instrument> instrument_;
   instruments::Mounting mounting_;
-  instruments::PressureGate pressures_;
+  PressureGate pressures_;
   instruments::FrameClock clock_;
   std::map<std::uint8_t, instruments::FrameClock> others_;  ///< by Measurement::clock
   GpsTimeWatch gps_time_;
