@@ -1,13 +1,114 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "report/html_page.h"
-#include "report/validation_figures.h"
+#include "report/svg_matrix.h"
+#include "report/svg_plot.h"
 #include "report/validation_report.h"
 #include "report/validation_words.h"
 
 namespace navcal::report {
 namespace {
+
+using Ink = SvgPlot::Ink;
+
+std::vector<Figure> power_figure(const std::vector<validation::TrialPower>& power) {
+  std::vector<Point> lower, upper, shares;
+  for (const auto& [strength, hits, cases] : power) {
+    if (cases == 0) continue;
+    const auto interval = validation::wilson(hits, cases);
+    lower.push_back({strength, 100 * interval[0]});
+    upper.push_back({strength, 100 * interval[1]});
+    shares.push_back({strength, 100.0 * hits / cases});
+  }
+  if (shares.empty()) return {};
+  SvgPlot plot("Power", {"strength, typical strengths", {0, 2.1}}, {"named exactly, %", {0, 103}});
+  plot.band(Ink::first, "95 %", lower, upper);
+  plot.line(Ink::first, "", shares);
+  plot.points(Ink::first, "share", shares);
+  const std::array<Point, 4> targets{{{0.1, 100.0 / 3}, {0.2, 80}, {0.5, 95}, {1, 95}}};
+  plot.points(Ink::before, "target", targets);
+  return {{"Power against the size of the gap", plot.svg(),
+           "Share of single effects that were named exactly, by strength."}};
+}
+
+std::vector<Figure> calibration_figure(const validation::TrialScores& scores) {
+  std::vector<Point> points;
+  SvgPlot plot("Calibration", {"probability given, %", {0, 103}}, {"right, %", {0, 103}}, {440, 400});
+  const std::array<Point, 2> ideal{{{0, 0}, {100, 100}}};
+  plot.line(Ink::fit, "ideal", ideal);
+  for (const validation::TrialCalibrationBin& bin : scores.calibration) {
+    if (bin.bets == 0) continue;
+    const int right = static_cast<int>(std::lround(bin.share_right * bin.bets));
+    const auto interval = validation::wilson(right, bin.bets);
+    const double x = 100 * bin.mean_probability;
+    const std::array<Point, 2> bar{{{x, 100 * interval[0]}, {x, 100 * interval[1]}}};
+    plot.line(Ink::first, "", bar);
+    points.push_back({x, 100 * bin.share_right});
+  }
+  if (points.empty()) return {};
+  plot.points(Ink::before, "in tenths, with 95 %", points);
+  return {{"Calibration of the probabilities", plot.svg(),
+           fmt::format("Probabilities of effects in explained cases against the share that was present; mean "
+                       "distance {:.3f}.",
+                       validation::calibration_error(scores.calibration))}};
+}
+
+std::vector<Figure> closure_figure(const std::vector<double>& closures) {
+  if (closures.empty()) return {};
+  constexpr double kLeast = 0.7, kMost = 1.2, kWidth = 0.02;
+  constexpr int kBins = 25;
+  std::array<int, kBins> counts{};
+  for (const double closure : closures) {
+    const double place = (std::clamp(closure, kLeast, kMost) - kLeast) / kWidth;
+    ++counts[static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, kBins - 1))];
+  }
+  const int most = *std::max_element(counts.begin(), counts.end());
+  SvgPlot plot("Closure", {"part of the held-out gap closed, %", {100 * kLeast, 100 * kMost}},
+               {"cases", {0, 1.08 * most}});
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double left = 100 * (kLeast + kWidth * static_cast<double>(i)), right = left + 100 * kWidth;
+    const std::array<Point, 2> floor{{{left, 0}, {right, 0}}};
+    const std::array<Point, 2> ceiling{{{left, 1.0 * counts[i]}, {right, 1.0 * counts[i]}}};
+    plot.band(Ink::first, "", floor, ceiling);
+    plot.line(Ink::first, "", ceiling);
+  }
+  return {{"Closure", plot.svg(),
+           fmt::format("{} exact outcomes at half the typical strength or more; values outside the axis are in "
+                       "the outermost bars.",
+                       closures.size())}};
+}
+
+/// Power by strength, calibration of the probabilities, closures; figures without cases are left out.
+std::vector<Figure> trial_figures(const validation::TrialScores& scores) {
+  std::vector<Figure> figures = power_figure(scores.power);
+  for (auto& more : {calibration_figure(scores), closure_figure(scores.closures)})
+    figures.insert(figures.end(), more.begin(), more.end());
+  return figures;
+}
+
+/// Empty if nothing was answered.
+std::vector<Figure> confusion_figure(const validation::TrialConfusion& confusion) {
+  if (confusion.truths.empty()) return {};
+  SvgMatrix matrix{confusion.truths, confusion.answers, confusion.counts, {}};
+  for (const std::string& truth : confusion.truths) {
+    matrix.agreeing.emplace_back();
+    for (const std::string& answer : confusion.answers) {
+      const bool nothing_to_name = truth.ends_with("the library") || truth == "6 % off everywhere";
+      const bool nothing_there = truth == "no effect" || truth == "6 % off everywhere";
+      matrix.agreeing.back().push_back(truth == answer || (nothing_to_name && answer == "unknown") ||
+                                       (nothing_there && answer == "no gap"));
+    }
+  }
+  return {{"Truth (rows) against answer (columns)", matrix.svg("Confusion matrix"),
+           "Blue: right. Orange: wrong. A case counts for each effect that is present; effects at less than "
+           "half their typical strength and the poor missions are left out."}};
+}
 
 void append_verdict(HtmlPage& page, const TrialReport& report) {
   bool missed = false;
