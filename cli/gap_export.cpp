@@ -9,7 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/result_file.h"
-#include "report/simulators/simulator_file.h"
+#include "report/simulators/transfer.h"
 
 namespace navcal::cli {
 namespace {

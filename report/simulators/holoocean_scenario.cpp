@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/simulators/holoocean_scenario.h"
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/angles.h"
-#include "report/simulators/fixed_axis_angles.h"
+#include "report/simulators/transfer.h"
 
 // Sources are named at the head of representation.cpp. Places and angles of sensors, and the world, have x forward
 // (north), y to port (west) and z up; the keys of the dynamics have z down.

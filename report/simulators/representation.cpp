@@ -15,6 +15,19 @@
 namespace navcal::report {
 namespace {
 
+struct SimulatorNames {
+  std::string_view name, title, ending;
+};
+
+constexpr std::array<SimulatorNames, kSimulators.size()> kSimulatorNames{
+    {{"sitl", "ArduPilot SITL", ".sitl.parm"},
+     {"holoocean", "HoloOcean", ".holoocean.json"},
+     {"stonefish", "Stonefish", ".stonefish.xml"}}};
+
+const SimulatorNames& names_of(Simulator simulator) {
+  return kSimulatorNames[static_cast<std::size_t>(simulator)];
+}
+
 using enum Fidelity;
 
 struct RepresentationRow {
@@ -167,6 +180,17 @@ const RepresentationRow* row_of(std::string_view effect) {
 }
 
 }  // namespace
+
+std::string_view name_of(Simulator simulator) { return names_of(simulator).name; }
+std::string_view title_of(Simulator simulator) { return names_of(simulator).title; }
+std::string_view ending_of(Simulator simulator) { return names_of(simulator).ending; }
+
+std::optional<Simulator> simulator_named(std::string_view name) {
+  const auto found = std::find_if(kSimulators.begin(), kSimulators.end(),
+                                  [&](Simulator simulator) { return name_of(simulator) == name; });
+  if (found == kSimulators.end()) return std::nullopt;
+  return *found;
+}
 
 std::string_view name_of(Fidelity fidelity) {
   switch (fidelity) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/simulators/sitl_parameters.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -8,6 +6,7 @@
 
 #include "base/angles.h"
 #include "base/reference_instruments.h"
+#include "report/simulators/transfer.h"
 
 // Sources are named at the head of representation.cpp. Body axes of ArduPilot are those of navcal: x forward, y to
 // starboard, z down.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/simulators/stonefish_scenario.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -10,7 +8,7 @@
 
 #include "base/angles.h"
 #include "base/gravity.h"
-#include "report/simulators/fixed_axis_angles.h"
+#include "report/simulators/transfer.h"
 
 // Sources are named at the head of representation.cpp. Bodies have x forward, y to starboard and z down, the world
 // is north, east, down; angles are in radians.

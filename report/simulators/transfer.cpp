@@ -14,6 +14,16 @@
 #include "sim/effects/effect_table.h"
 
 namespace navcal::report {
+
+SimulatorFile simulator_file(Simulator simulator, const CorrectedModel& model) {
+  switch (simulator) {
+    case Simulator::sitl: return sitl_parameters(model);
+    case Simulator::holoocean: return holoocean_scenario(model);
+    case Simulator::stonefish: break;
+  }
+  return stonefish_scenario(model);
+}
+
 namespace {
 
 const gap::EffectParameterEstimate* estimate_of(const gap::EffectFinding& finding, std::string_view parameter) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,5 +79,30 @@ struct SimulatorFile {
 
 /// Lines of at most `width` bytes, each with `prefix` before it; words that are longer are cut.
 [[nodiscard]] std::string comment_lines(std::string_view paragraph, std::string_view prefix, std::size_t width);
+
+/// A scenario of HoloOcean 2.3: the nominal vehicle as a TorpedoAUV with Fossen's dynamics, its sensors with their
+/// noise, and the found effects. HoloOcean's torpedo is another model: only numbers that it has too are taken
+/// over. The key "navcal", which HoloOcean does not read, says what the file contains and what was left out.
+[[nodiscard]] SimulatorFile holoocean_scenario(const CorrectedModel& model);
+
+/// Found effects as elements of a Stonefish scenario (XML), to be taken over into the user's own: only elements
+/// and attributes that an effect changes, without geometry, materials and looks. Comments say what the file
+/// contains and what was left out.
+[[nodiscard]] SimulatorFile stonefish_scenario(const CorrectedModel& model);
+
+/// Found effects as SIM_* parameters of ArduPilot SITL (ArduSub 4.7): a file for `sim_vehicle.py --add-param-file`
+/// and for MAVProxy's `param load`. One "NAME value" a line; comments begin with # and, since ArduPilot reads
+/// lines of at most 98 characters, are shorter than that.
+[[nodiscard]] SimulatorFile sitl_parameters(const CorrectedModel& model);
+
+/// Roll, pitch and yaw about fixed axes, rad, of R = Rz(yaw) Ry(pitch) Rx(roll): the convention of the
+/// rotations in files of HoloOcean and Stonefish.
+[[nodiscard]] inline Eigen::Vector3d fixed_axis_angles(const Eigen::Matrix3d& R) {
+  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
+}
+
+/// The found effects in a file for the simulator (docs/simulator-export.md). A verdict other than "explained"
+/// gives a file without any correction, which says so.
+[[nodiscard]] SimulatorFile simulator_file(Simulator simulator, const CorrectedModel& model);
 
 }  // namespace navcal::report

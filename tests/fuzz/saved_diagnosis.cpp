@@ -9,7 +9,7 @@
 
 #include "report/gap_from_json.h"
 #include "report/gap_json.h"
-#include "report/simulators/simulator_file.h"
+#include "report/simulators/transfer.h"
 #include "tests/fuzz/source.h"
 #include "tests/fuzz/target.h"
 #include "tests/report/gap_samples.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "report/gap_json.h"
-#include "report/simulators/simulator_file.h"
+#include "report/simulators/transfer.h"
 #include "tests/report/gap_samples.h"
 
 namespace navcal::report {

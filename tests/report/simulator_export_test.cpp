@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "report/simulators/simulator_file.h"
+#include "report/simulators/transfer.h"
 #include "sim/effects/effect_table.h"
 #include "tests/report/gap_samples.h"
 #include "tests/support/temporary_folder.h"
