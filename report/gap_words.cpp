@@ -5,12 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/angles.h"
 #include "gap/thresholds.h"
 #include "report/calibrate_words.h"
-#include "report/gap_units.h"
 #include "report/shown_number.h"
 
 namespace navcal::report {
@@ -25,6 +25,13 @@ std::string quoted(const std::string& file) {
   std::string out = "'";
   for (const char c : file) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
+}
+
+constexpr std::array<std::string_view, 11> kChannelUnits{"uT", "deg", "rad", "s", "s2", "m",
+                                                         "N",  "A",   "A2",  "C", "g"};
+
+bool is_unit(std::string_view word) {
+  return std::find(kChannelUnits.begin(), kChannelUnits.end(), word) != kChannelUnits.end();
 }
 
 }  // namespace
@@ -247,6 +254,27 @@ std::string simulate_hint(const gap::Diagnosis& diagnosis, const GapSource& sour
       fmt::format("navcal simulate --mission survey{} --effects {} -o with.cap", nominal, file);
   return source.effects_file.empty() ? "--effects-out FILE.toml writes the effects found; then " + command
                                      : command;
+}
+
+NameAndUnit name_and_unit(std::string_view parameter) {
+  NameAndUnit split;
+  bool per = false;
+  while (!parameter.empty()) {
+    const std::string_view word = parameter.substr(0, parameter.find('_'));
+    parameter.remove_prefix(std::min(word.size() + 1, parameter.size()));
+    if (word == "per") {
+      per = true;
+    } else if (is_unit(word)) {
+      // Metres by seconds squared are written m_s2, without "per".
+      if (!split.unit.empty()) split.unit += '/';
+      if (split.unit.empty() && per) split.unit = "1/";
+      split.unit += word;
+    } else {
+      if (!split.name.empty()) split.name += ' ';
+      split.name += word;
+    }
+  }
+  return split;
 }
 
 }  // namespace navcal::report

@@ -80,4 +80,11 @@ inline constexpr std::string_view kDescriptionNotCause =
 /// Command that simulates the effects found, or the way to it; empty if there are none.
 [[nodiscard]] std::string simulate_hint(const gap::Diagnosis& diagnosis, const GapSource& source);
 
+/// Splits a parameter's name into name and unit: "x_uT_per_A" is "x" in "uT/A", "deg_per_s_per_C_ax" is "ax" in
+/// "deg/s/C", "per_A" is nameless in "1/A", "gain" has no unit.
+struct NameAndUnit {
+  std::string name, unit;
+};
+[[nodiscard]] NameAndUnit name_and_unit(std::string_view parameter);
+
 }  // namespace navcal::report

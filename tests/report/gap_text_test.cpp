@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "report/gap_units.h"
+#include "report/gap_words.h"
 #include "report/wrapped_text.h"
 #include "tests/report/gap_samples.h"
 
