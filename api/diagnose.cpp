@@ -3,8 +3,7 @@
 
 #include "api/diagnosis_request.h"
 #include "api/guard.h"
-#include "report/gap_effects_file.h"
-#include "report/gap_json.h"
+#include "report/gap_report.h"
 
 namespace navcal::api {
 namespace {

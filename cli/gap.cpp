@@ -28,11 +28,7 @@
 #include "gap/verdict/request.h"
 #include "record/recording.h"
 #include "record/seen_recordings.h"
-#include "report/gap_effects_file.h"
-#include "report/gap_from_json.h"
-#include "report/gap_json.h"
-#include "report/gap_page.h"
-#include "report/gap_text.h"
+#include "report/gap_report.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 

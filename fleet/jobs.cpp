@@ -16,7 +16,7 @@
 #include "gap/verdict/request.h"
 #include "record/json/calibration_json.h"
 #include "record/recording.h"
-#include "report/gap_json.h"
+#include "report/gap_report.h"
 #include "report/noise_text.h"
 #include "report/surfacings_text.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_effects_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <iterator>
 #include <span>
 
+#include "report/gap_report.h"
 #include "report/gap_words.h"
 #include "report/wrapped_text.h"
 #include "sim/effects/effect_table.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_json.h"
-
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 
 #include "base/angles.h"
 #include "record/json/calibration_json.h"
+#include "report/gap_report.h"
 #include "report/gap_words.h"
 #include "report/where_json.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_page.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,6 +8,7 @@
 
 #include "base/angles.h"
 #include "report/gap_figures.h"
+#include "report/gap_report.h"
 #include "report/html_page.h"
 #include "report/shown_number.h"
 

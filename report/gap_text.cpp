@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_text.h"
-
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
 #include "report/append_format.h"
+#include "report/gap_report.h"
 #include "report/shown_number.h"
 #include "report/wrapped_text.h"
 

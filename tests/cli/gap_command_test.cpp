@@ -10,7 +10,7 @@
 #include "cli/gap_trial.h"
 #include "gap/verdict/request.h"
 #include "gap/verdict/study.h"
-#include "report/gap_json.h"
+#include "report/gap_report.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/gap_samples.h"
 #include "tests/support/temporary_folder.h"

@@ -7,8 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "report/gap_from_json.h"
-#include "report/gap_json.h"
+#include "report/gap_report.h"
 #include "report/simulators/transfer.h"
 #include "tests/fuzz/source.h"
 #include "tests/fuzz/target.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_effects_file.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "report/gap_report.h"
 #include "sim/effects/document.h"
 #include "sim/effects/effect_table.h"
 #include "tests/report/gap_samples.h"

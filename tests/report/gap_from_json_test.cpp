@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_from_json.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "report/gap_json.h"
+#include "report/gap_report.h"
 #include "report/simulators/transfer.h"
 #include "tests/report/gap_samples.h"
 

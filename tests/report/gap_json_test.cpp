@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_json.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "report/gap_report.h"
 #include "tests/report/gap_samples.h"
 
 namespace navcal::cli {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_page.h"
-
 #include <gtest/gtest.h>
 
+#include "report/gap_report.h"
 #include "tests/report/gap_samples.h"
 #include "tests/report/markup.h"
 

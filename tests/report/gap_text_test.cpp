@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/gap_text.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
+#include "report/gap_report.h"
 #include "report/gap_words.h"
 #include "report/wrapped_text.h"
 #include "tests/report/gap_samples.h"
