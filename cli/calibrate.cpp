@@ -13,8 +13,7 @@
 #include "cli/window_options.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
-#include "report/calibrate_page.h"
-#include "report/calibrate_text.h"
+#include "report/calibrate_report.h"
 
 namespace navcal::cli {
 namespace {

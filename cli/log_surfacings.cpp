@@ -11,8 +11,7 @@
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"
-#include "report/surfacings_page.h"
-#include "report/surfacings_text.h"
+#include "report/surfacings_report.h"
 
 namespace navcal::cli {
 namespace {

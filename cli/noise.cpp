@@ -11,8 +11,7 @@
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"
-#include "report/noise_page.h"
-#include "report/noise_text.h"
+#include "report/noise_report.h"
 
 namespace navcal::cli {
 namespace {

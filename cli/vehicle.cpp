@@ -17,8 +17,7 @@
 #include "config/vehicle_file.h"
 #include "identify/answer/prediction.h"
 #include "identify/conventions/conventions.h"
-#include "report/vehicle_check.h"
-#include "report/vehicle_prediction.h"
+#include "report/vehicle_report.h"
 #include "sim/layout/layout_of.h"
 
 namespace navcal::cli {

@@ -17,8 +17,8 @@
 #include "record/json/calibration_json.h"
 #include "record/recording.h"
 #include "report/gap_report.h"
-#include "report/noise_text.h"
-#include "report/surfacings_text.h"
+#include "report/noise_report.h"
+#include "report/surfacings_report.h"
 
 namespace navcal::fleet {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/calibrate_page.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "calib/coverage.h"
 #include "pipeline/calibration_options.h"
 #include "report/calibrate_figures.h"
+#include "report/calibrate_report.h"
 #include "report/calibrate_words.h"
 #include "report/html_page.h"
 #include "report/shown_number.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/calibrate_text.h"
-
 #include <string_view>
 #include <vector>
 
 #include "calib/coverage.h"
 #include "report/append_format.h"
+#include "report/calibrate_report.h"
 #include "report/calibrate_words.h"
 #include "report/shown_number.h"
 #include "report/svg_rose.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/noise_text.h"
+#include "report/noise_report.h"
 #include "report/noise_words.h"
 
 namespace navcal::report {

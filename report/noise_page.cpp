@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/noise_page.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "analysis/noise/noise_run.h"
 #include "report/html_page.h"
+#include "report/noise_report.h"
 #include "report/noise_words.h"
 #include "report/shown_number.h"
 #include "report/svg_plot.h"

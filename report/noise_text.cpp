@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/noise_text.h"
-
 #include <algorithm>
 
 #include "report/append_format.h"
+#include "report/noise_report.h"
 #include "report/noise_words.h"
 #include "report/shown_number.h"
 

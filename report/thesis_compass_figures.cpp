@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/angles.h"
-#include "report/thesis_figures.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

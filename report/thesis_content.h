@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/thesis/thesis_results.h"
 #include "report/svg_plot.h"
 
 /// Tables and figures of `navcal thesis` before they become a page or JSON, so that both show the same.
@@ -58,5 +60,80 @@ struct ThesisFigure {
 
 /// Cell as on the page.
 [[nodiscard]] std::string shown_cell(const ThesisCell& cell, const ThesisColumn& column);
+
+/// Figures 1.1, 1.2, 3.1 to 3.11 and 4.1 to 4.12, in this order.
+[[nodiscard]] std::vector<ThesisFigure> thesis_figures(const analysis::ThesisResults& results);
+
+/// Figures 3.1 to 3.11.
+[[nodiscard]] std::vector<ThesisFigure> thesis_turn_figures(const analysis::ThesisResults& results);
+/// Figures 4.1 to 4.6.
+[[nodiscard]] std::vector<ThesisFigure> thesis_compass_figures(const analysis::ThesisResults& results);
+/// Figures 4.7 to 4.12.
+[[nodiscard]] std::vector<ThesisFigure> thesis_field_figures(const analysis::ThesisResults& results);
+
+/// The trace of a path, with noise or without. Throws std::logic_error where there is none.
+template <class Trace>
+const Trace& thesis_trace_of(const std::vector<Trace>& traces, int path, bool noisy) {
+  for (const Trace& trace : traces) {
+    if (trace.path == path && trace.noisy == noisy) return trace;
+  }
+  throw std::logic_error("no trace of this path");
+}
+
+/// Panel of the track, a metre north as long as a metre east.
+template <class Trace>
+ThesisPanel thesis_track_panel(const Trace& trace) {
+  return {"Track", "east, m", "north, m", {{"", SvgPlot::Ink::first, trace.east_m, trace.north_m}}, true};
+}
+
+/// Tables 3.1, 3.2, "convergence", 4.1, 4.2 and "magnetometer-paths", in this order.
+[[nodiscard]] std::vector<ThesisTable> thesis_tables(const analysis::ThesisResults& results);
+
+[[nodiscard]] std::vector<ThesisTable> thesis_gyro_tables(const analysis::ThesisResults& results);
+[[nodiscard]] ThesisTable thesis_compass_table(const analysis::ThesisResults& results);
+[[nodiscard]] std::vector<ThesisTable> thesis_field_tables(const analysis::ThesisResults& results);
+
+/// A column with the way to its number in a row.
+template <class Row>
+struct ThesisColumnOf {
+  ThesisColumn column;
+  std::function<ThesisCell(const Row&)> get;
+};
+
+template <class Row>
+ThesisTablePart thesis_part(std::string key, std::string title, const std::vector<Row>& rows,
+                            const std::vector<ThesisColumnOf<Row>>& columns) {
+  ThesisTablePart part{std::move(key), std::move(title), {}, {}};
+  for (const auto& column : columns) part.columns.push_back(column.column);
+  for (const Row& row : rows) {
+    auto& cells = part.rows.emplace_back();
+    for (const auto& column : columns) cells.push_back(column.get(row));
+  }
+  return part;
+}
+
+/// Estimates of one coefficient on one path, in its own unit.
+struct ThesisEstimate {
+  int path = 0;
+  double truth = 0;
+  double printed = 0, printed_percent = 0;
+  double recomputed = 0;                  ///< by the method of the thesis, no noise
+  double navcal = 0;                      ///< no noise
+  double method_rms = 0, navcal_rms = 0;  ///< with noise
+  double bound = 0;
+  double percent_of = 1;  ///< what errors are percentages of: the true value or its amount
+};
+/// The columns that tables 3.1, 3.2 and 4.1 have in common.
+[[nodiscard]] ThesisTablePart thesis_estimates(std::string key, std::string title,
+                                               const std::vector<ThesisEstimate>& rows, int decimals);
+
+/// What the tables say in a sentence each.
+struct ThesisFinding {
+  std::string word, sentence;
+};
+[[nodiscard]] std::vector<ThesisFinding> thesis_findings(const analysis::ThesisResults& results);
+
+/// Errors and disagreements within the thesis, as (place, what is the matter).
+[[nodiscard]] std::vector<std::vector<std::string>> thesis_errata();
 
 }  // namespace navcal::report

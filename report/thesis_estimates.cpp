@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "report/thesis_tables.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

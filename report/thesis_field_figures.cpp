@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "calib/thesis/distorted_field.h"
 #include "calib/thesis/printed_tables.h"
-#include "report/thesis_figures.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "calib/thesis/printed_tables.h"
-#include "report/thesis_tables.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "calib/thesis/printed_tables.h"
-#include "report/thesis_tables.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

@@ -6,10 +6,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "report/thesis_figures.h"
+#include "report/thesis_content.h"
 #include "report/thesis_page.h"
-#include "report/thesis_tables.h"
-#include "report/thesis_words.h"
 
 namespace navcal::report {
 namespace {

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "report/html_page.h"
-#include "report/thesis_figures.h"
-#include "report/thesis_tables.h"
-#include "report/thesis_words.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "report/thesis_figures.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/thesis_words.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "calib/thesis/printed_tables.h"
+#include "report/thesis_content.h"
 
 namespace navcal::report {
 namespace {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angles.h"
-#include "report/vehicle_check.h"
+#include "report/vehicle_report.h"
 
 namespace navcal::report {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "base/angles.h"
-#include "report/vehicle_check.h"
+#include "report/vehicle_report.h"
 
 namespace navcal::report {
 namespace {

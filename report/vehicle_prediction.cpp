@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/vehicle_prediction.h"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "base/angles.h"
+#include "report/vehicle_report.h"
 
 namespace navcal::report {
 namespace {

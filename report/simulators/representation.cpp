@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/simulators/representation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
@@ -173,12 +171,6 @@ constexpr std::array<RepresentationRow, 34> kRepresentations{{
        {none, "drag follows from the geometry of the body; no coefficient of yaw"}}}},
 }};
 
-const RepresentationRow* row_of(std::string_view effect) {
-  const auto found = std::find_if(kRepresentations.begin(), kRepresentations.end(),
-                                  [&](const RepresentationRow& row) { return row.effect == effect; });
-  return found == kRepresentations.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::string_view name_of(Simulator simulator) { return names_of(simulator).name; }
@@ -192,32 +184,14 @@ std::optional<Simulator> simulator_named(std::string_view name) {
   return *found;
 }
 
-std::string_view name_of(Fidelity fidelity) {
-  switch (fidelity) {
-    case exact: return "exact";
-    case approximate: return "approximate";
-    case none: break;
-  }
-  return "not representable";
-}
-
-bool has_representation_row(std::string_view effect) { return row_of(effect) != nullptr; }
-
 Representation representation_of(std::string_view effect, Simulator simulator) {
-  if (const auto* const row = row_of(effect)) return row->in[static_cast<std::size_t>(simulator)];
+  const auto row = std::find_if(kRepresentations.begin(), kRepresentations.end(),
+                                [&](const RepresentationRow& one) { return one.effect == effect; });
+  if (row != kRepresentations.end()) return row->in[static_cast<std::size_t>(simulator)];
   const auto known = sim::make_effect(effect);
   if (known && known->description().place == sim::EffectPlace::lines)
     return {none, "noise, clocks and lines are no cause of a gap, and no diagnosis names them"};
   return {none, "this version of navcal has no conversion for it"};
-}
-
-std::string representation_table(Simulator simulator) {
-  std::string text = "| effect | representation | how, or why not |\n|---|---|---|\n";
-  for (const RepresentationRow& row : kRepresentations) {
-    const Representation& cell = row.in[static_cast<std::size_t>(simulator)];
-    text += fmt::format("| `{}` | {} | {} |\n", row.effect, name_of(cell.fidelity), cell.text);
-  }
-  return text;
 }
 
 }  // namespace navcal::report

@@ -7,8 +7,7 @@
 
 #include "calib/suite/suite.h"
 #include "record/json/calibration_json.h"
-#include "report/calibrate_page.h"
-#include "report/calibrate_text.h"
+#include "report/calibrate_report.h"
 #include "tests/calib/suite/mean_pitch.h"
 
 namespace navcal::report {

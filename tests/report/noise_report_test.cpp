@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/noise_report.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "report/noise_page.h"
-#include "report/noise_text.h"
 #include "report/noise_words.h"
 #include "tests/analysis/noise/made_noise.h"
 #include "tests/report/markup.h"

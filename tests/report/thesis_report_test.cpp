@@ -9,10 +9,8 @@
 
 #include "analysis/thesis/thesis_run.h"
 #include "report/html_page.h"
-#include "report/thesis_figures.h"
+#include "report/thesis_content.h"
 #include "report/thesis_page.h"
-#include "report/thesis_tables.h"
-#include "report/thesis_words.h"
 #include "tests/report/markup.h"
 
 namespace navcal::report {

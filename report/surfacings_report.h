@@ -34,4 +34,9 @@ struct SurfacingStatistics {
 /// The statistics as sentences.
 [[nodiscard]] std::vector<std::string> surfacing_sentences(const SurfacingStatistics& statistics);
 
+/// A page with the distribution of the time to first fix, that time against the time under water with the model of
+/// the receiver, the error of the dead reckoning against the time without fixes, and a table.
+[[nodiscard]] std::string surfacings_page(const std::vector<analysis::RecordedSurfacing>& surfacings,
+                                          const std::vector<std::string>& files, const config::Settings& settings);
+
 }  // namespace navcal::report

@@ -10,6 +10,9 @@
 
 namespace navcal::report {
 
+/// The answer of `navcal calibrate` as text for a terminal.
+[[nodiscard]] std::string calibrate_text(const calib::Report& report, double duration_s);
+
 /// Source of a page, for its foot.
 struct PageSource {
   std::vector<std::string> files;
