@@ -5,18 +5,36 @@
 #include <boost/asio/steady_timer.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/emulate_misbehaviour.h"
-#include "analysis/emulate_sent_log.h"
 #include "ports/paced_writer.h"
 #include "ports/pty_host.h"
+#include "record/capture/capture_writer.h"
 #include "sim/effects/effect_set.h"
 #include "sim/instruments/device.h"
 
 namespace navcal::analysis {
+
+/// A capture of exactly what went over the emulated lines, with the time at which it was on the wire. Directions
+/// are the host's: `<` is what a device sent and a client could read, `>` what the client sent.
+class SentLog {
+ public:
+  /// Throws Failure when the file cannot be made.
+  SentLog(const std::filesystem::path& file, const std::vector<config::PortSettings>& ports);
+  /// "#TEXT", such as "event 12.5 dive begins".
+  void comment(std::string_view text);
+  void add(std::uint16_t port, record::Direction direction, std::int64_t utc_ns, protocols::Bytes bytes);
+
+ private:
+  record::CaptureWriter writer_;
+  std::ofstream file_;
+  std::string line_;
+};
 
 /// One emulated instrument, live: the device's behaviour, its line at its pace, and a pseudo-terminal at the end.
 class EmulatedPort {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/ordered_motion.h"
 
 #include <gtest/gtest.h>
 
