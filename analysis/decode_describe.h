@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "analysis/decode_fields.h"
+#include "analysis/decode_summary.h"
 #include "protocols/frame.h"
 #include "protocols/gps_fix.h"
 #include "protocols/utc.h"
@@ -52,5 +54,13 @@ void write_position(FieldWriter& fields, const PositionFields& position,
 
 /// The frame is intact, but its content cannot be.
 void write_out_of_range(FieldWriter& fields);
+
+/// Hands on the frames of a whole stream of the device that speaks `protocol`. `next` gives the bytes, piece by
+/// piece, an empty piece at the end.
+DecodeSummary decode_frames(protocols::Protocol protocol, const std::function<protocols::Bytes()>& next,
+                            const std::function<void(const protocols::Frame&)>& on_frame);
+
+/// What writes the fields of the frames of the device that speaks `protocol`.
+[[nodiscard]] Describe description_of(protocols::Protocol protocol);
 
 }  // namespace navcal::analysis

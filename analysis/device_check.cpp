@@ -5,7 +5,6 @@
 #include <cmath>
 #include <deque>
 
-#include "analysis/device_warnings.h"
 #include "protocols/described/reading.h"
 #include "protocols/described/scanner.h"
 

@@ -59,4 +59,8 @@ struct DeviceFindings {
 /// One JSON object a line (docs/cli.md, `devices check`).
 [[nodiscard]] std::string to_json(const DeviceFindings& findings);
 
+/// What a user should look at before trusting a description: each one sentence.
+[[nodiscard]] std::vector<std::string> warnings_about(const protocols::described::Description& description,
+                                                      const DeviceFindings& findings);
+
 }  // namespace navcal::analysis

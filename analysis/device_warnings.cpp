@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/device_warnings.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "analysis/device_check.h"
 #include "base/gravity.h"
 
 namespace navcal::analysis {

@@ -13,7 +13,6 @@
 
 #include "analysis/emulate_port.h"
 #include "analysis/place_arguments.h"
-#include "analysis/simulated_place.h"
 #include "devices/instrument_model.h"
 #include "record/whole_file.h"
 #include "sim/effects/effect_set.h"

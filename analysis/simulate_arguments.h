@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "analysis/place_arguments.h"
-#include "analysis/simulated_place.h"
 #include "config/layout.h"
 #include "devices/instrument_model.h"
 #include "sim/instruments/clock_factor.h"

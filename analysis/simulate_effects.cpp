@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/simulate_effects.h"
-
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -13,6 +11,7 @@
 #include <system_error>
 
 #include "analysis/failure.h"
+#include "analysis/simulate_run.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/document.h"
 #include "sim/effects/effect_table.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/simulate_motion.h"
-
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "analysis/chosen_vehicle.h"
 #include "analysis/failure.h"
+#include "analysis/simulate_run.h"
 #include "config/mission_file.h"
 #include "config/vehicle_file.h"
 #include "sim/motion_in_field.h"

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "analysis/simulate_effects.h"
-#include "analysis/simulate_motion.h"
 #include "analysis/simulate_run.h"
 #include "api/guard.h"
 #include "config/load.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/decode_describe.h"
 #include "analysis/decode_described.h"
-#include "analysis/decode_frames.h"
 #include "analysis/progress.h"
 #include "base/printable.h"
 #include "cli/commands.h"

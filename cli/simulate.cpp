@@ -7,8 +7,6 @@
 
 #include "analysis/chosen_vehicle.h"
 #include "analysis/progress.h"
-#include "analysis/simulate_effects.h"
-#include "analysis/simulate_motion.h"
 #include "analysis/simulate_run.h"
 #include "base/interruptible.h"
 #include "cli/clock_option.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "analysis/progress.h"
-#include "analysis/thesis/thesis_run.h"
+#include "analysis/thesis/thesis_results.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "report/thesis_page.h"

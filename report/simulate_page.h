@@ -5,7 +5,7 @@
 
 #include "analysis/simulate_arguments.h"
 #include "analysis/simulate_history.h"
-#include "analysis/simulate_motion.h"
+#include "analysis/simulate_run.h"
 #include "sim/effects/effect_set.h"
 
 namespace navcal::report {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/noise/resolution.h"
+#include "analysis/noise/series.h"
 
 namespace navcal::analysis {
 namespace {

@@ -5,7 +5,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "analysis/noise/resolution.h"
+#include "analysis/noise/series.h"
 
 namespace navcal::analysis {
 namespace {

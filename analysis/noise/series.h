@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace navcal::analysis {
@@ -33,5 +34,10 @@ using Pieces = std::vector<std::vector<double>>;
 
 [[nodiscard]] std::size_t reading_count(const Pieces& pieces);
 [[nodiscard]] double mean_of(const Pieces& pieces);
+
+/// The step by which readings are rounded: the greatest common divisor of the differences between the values that
+/// occur. nullopt for fewer than two distinct values, and where the differences have no common divisor that is
+/// large against the precision of the numbers. Same unit as the values.
+[[nodiscard]] std::optional<double> resolution_of(std::vector<double> values);
 
 }  // namespace navcal::analysis

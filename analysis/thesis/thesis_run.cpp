@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/thesis/thesis_run.h"
-
 #include <fmt/format.h>
 
 #include "analysis/thesis/thesis_parts.h"
+#include "analysis/thesis/thesis_results.h"
 
 namespace navcal::analysis {
 

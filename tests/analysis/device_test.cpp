@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "analysis/decode_frames.h"
+#include "analysis/decode_describe.h"
 #include "config/load.h"
 #include "instruments/start_up.h"
 #include "pipeline/pipeline.h"

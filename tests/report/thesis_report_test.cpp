@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/thesis/thesis_run.h"
+#include "analysis/thesis/thesis_results.h"
 #include "report/html_page.h"
 #include "report/thesis_content.h"
 #include "report/thesis_page.h"

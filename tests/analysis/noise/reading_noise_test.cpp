@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/noise/channel_noise.h"
-#include "analysis/noise/resolution.h"
+#include "analysis/noise/series.h"
 #include "tests/analysis/noise/made_noise.h"
 
 namespace navcal::analysis {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/thesis/thesis_run.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "analysis/failure.h"
 #include "analysis/thesis/thesis_parts.h"
+#include "analysis/thesis/thesis_results.h"
 #include "base/angles.h"
 #include "sim/path.h"
 #include "tests/support/temporary_folder.h"
