@@ -2,25 +2,34 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
+#include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/this_coro.hpp>
+#include <chrono>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
 
 #include "analysis/emulate_session.h"
 #include "base/interruptible.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/effect_options.h"
-#include "cli/emulate_console.h"
-#include "cli/emulate_input.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "config/mission_file.h"
 #include "devices/instrument_model.h"
+#include "ports/no_throw.h"
 #include "protocols/device_types.h"
 #include "sim/instruments/emulators.h"
 #include "sim/layout/layout_helm.h"
@@ -30,7 +39,102 @@
 namespace navcal::cli {
 namespace {
 
+inline constexpr std::string_view kConsoleHelp =
+    "unplug PORT | replug PORT | power-cycle PORT | stall PORT SECONDS | noise PROB [PORT] | drop PROB [PORT] | "
+    "imu-status BITS | quit";
+
+std::string set_probability(analysis::EmulateSession& session, std::istringstream& words,
+                            void (analysis::Misbehaviour::*setter)(double)) {
+  double probability = 0;
+  if (!(words >> probability) || probability < 0 || probability > 1) return "a probability from 0 to 1 is missing";
+  std::string name;
+  if (words >> name) {
+    analysis::EmulatedPort* port = session.find(name);
+    if (port == nullptr) return fmt::format("there is no port {}", name);
+    (port->misbehaviour().*setter)(probability);
+    return {};
+  }
+  for (const auto& port : session.ports()) (port->misbehaviour().*setter)(probability);
+  return {};
+}
+
+std::string act_on_port(analysis::EmulateSession& session, const std::string& verb, std::istringstream& words) {
+  std::string name;
+  words >> name;
+  analysis::EmulatedPort* port = session.find(name);
+  if (port == nullptr) return fmt::format("there is no port {}", name.empty() ? "named" : name);
+  if (verb == "unplug") {
+    port->unplug();
+  } else if (verb == "replug") {
+    port->replug();
+  } else if (verb == "power-cycle") {
+    port->power_cycle();
+  } else {
+    double seconds = 0;
+    if (!(words >> seconds) || seconds <= 0) return "the number of seconds is missing";
+    port->stall(seconds);
+  }
+  return {};
+}
+
+/// One line of what people (or a test) type at a running emulator. Empty when it was done, else why not.
+std::string obey_line(analysis::EmulateSession& session, std::string_view line) {
+  std::istringstream words{std::string(line)};
+  std::string verb;
+  if (!(words >> verb)) return {};
+  if (verb == "unplug" || verb == "replug" || verb == "power-cycle" || verb == "stall") {
+    return act_on_port(session, verb, words);
+  }
+  if (verb == "noise") return set_probability(session, words, &analysis::Misbehaviour::set_noise);
+  if (verb == "drop") return set_probability(session, words, &analysis::Misbehaviour::set_drop);
+  if (verb == "imu-status") {
+    unsigned bits = 0;
+    if (!(words >> bits) || bits > 15)
+      return "bits from 0 to 15: 1 leak forward, 2 leak aft, 4 over range, 8 low supply";
+    const bool is_set = session.set_imu_status(static_cast<std::uint8_t>(bits));
+    return is_set ? "" : "no inertial card is emulated";
+  }
+  if (verb == "quit") {
+    session.stop();
+    return {};
+  }
+  return fmt::format("'{}' is none of: {}", verb, kConsoleHelp);
+}
+
 namespace asio = boost::asio;
+constexpr std::size_t kLongestLine = 1024;
+
+bool in_the_background(int fd) { return ::isatty(fd) != 0 && ::tcgetpgrp(fd) != ::getpgrp(); }
+
+/// Hands on each line that comes in on a descriptor, to the end of it; nothing at all when it cannot be waited for
+/// (a file, /dev/null). Leaves a terminal alone while it belongs to another program: reading would stop this one.
+asio::awaitable<void> read_lines(int fd, std::function<void(std::string_view)> on_line) {
+  const auto executor = co_await asio::this_coro::executor;
+  asio::steady_timer timer(executor);
+  asio::posix::stream_descriptor input(executor);
+  boost::system::error_code error;
+  input.assign(::dup(fd), error);
+  std::string held;
+  while (!error) {
+    const auto [failed] = co_await input.async_wait(asio::posix::stream_descriptor::wait_read, ports::kNoThrow);
+    if (failed) break;
+    if (in_the_background(fd)) {
+      timer.expires_after(std::chrono::seconds(1));
+      co_await timer.async_wait(ports::kNoThrow);
+      continue;
+    }
+    // Read after the wait, not by Asio, which would make the shell's own descriptor non-blocking.
+    std::array<char, 256> buffer{};
+    const ssize_t n = ::read(input.native_handle(), buffer.data(), buffer.size());
+    if (n <= 0) break;
+    held.append(buffer.data(), static_cast<std::size_t>(n));
+    for (auto end = held.find('\n'); end != std::string::npos; end = held.find('\n')) {
+      on_line(std::string_view(held).substr(0, end));
+      held.erase(0, end + 1);
+    }
+    if (held.size() > kLongestLine) held.clear();
+  }
+}
 
 void run(const analysis::EmulateArguments& arguments) {
   asio::io_context io{1};
