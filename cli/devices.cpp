@@ -19,7 +19,6 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/decode_input.h"
-#include "cli/decode_port.h"
 #include "config/described/description_file.h"
 #include "record/log/mcap_format.h"
 

@@ -7,7 +7,6 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/doctor_checks.h"
-#include "cli/doctor_report.h"
 #include "config/load.h"
 
 namespace navcal::cli {

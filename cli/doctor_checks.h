@@ -1,16 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
-#include "cli/doctor_account.h"
-#include "cli/doctor_finding.h"
 #include "config/settings.h"
 
 // One function for each thing that `navcal doctor` looks at. The checks change nothing, but for a file in the log
 // folder that is made to time it and removed again.
 namespace navcal::cli {
+
+/// Result of one check of what can spoil the data.
+struct Finding {
+  enum class Severity : std::uint8_t { good, warning, fault };
+
+  Severity severity = Severity::good;
+  std::string topic;  ///< "port compass", "clock"
+  std::string found;
+  std::string mend;  ///< a command, or what to do; empty when all is well
+};
+
+using Findings = std::vector<Finding>;
+
+inline Finding good(std::string topic, std::string found) {
+  return {Finding::Severity::good, std::move(topic), std::move(found), {}};
+}
+inline Finding warning(std::string topic, std::string found, std::string mend) {
+  return {Finding::Severity::warning, std::move(topic), std::move(found), std::move(mend)};
+}
+inline Finding fault(std::string topic, std::string found, std::string mend) {
+  return {Finding::Severity::fault, std::move(topic), std::move(found), std::move(mend)};
+}
+
+inline constexpr const char* kServiceUser = "navcal";
+
+/// Account under which navcald will run.
+struct Account {
+  std::string name;
+  uid_t uid = 0;
+  std::vector<gid_t> groups;
+};
+
+/// Account of this process.
+[[nodiscard]] Account own_account();
+/// Account of the service's user, `navcal`, when root calls and that user exists; else that of this process.
+[[nodiscard]] Account service_account();
+
+/// True when the account can read and write files of this owner and mode (root always can).
+[[nodiscard]] bool may_read_and_write(const Account& account, uid_t owner, gid_t group, mode_t mode);
+/// The same for a file; false when it does not exist.
+[[nodiscard]] bool may_read_and_write(const Account& account, const std::filesystem::path& file);
+/// The name of the group that owns a file, or its number; empty when the file is not there.
+[[nodiscard]] std::string group_of(const std::filesystem::path& file);
 
 /// Checks where a port is, who may open it, who holds it, and how long its adapter delays bytes.
 [[nodiscard]] Finding check_port(const config::PortSettings& settings, const Account& account);
@@ -44,5 +89,13 @@ struct ClockState {
 [[nodiscard]] Finding check_limits(const config::Settings& settings);
 [[nodiscard]] Finding judge_limits(std::uint64_t descriptors, std::uint64_t real_time_priority,
                                    const config::Settings& settings);
+
+/// One screen for people.
+[[nodiscard]] std::string doctor_text(const Findings& findings);
+/// One object: {"class": "DOCTOR", "account", "configuration", "findings": [{"severity", "topic", "found",
+/// "mend"}], "faults", "warnings"}; mend is null where all is well.
+[[nodiscard]] std::string doctor_json(const Findings& findings, const std::string& account,
+                                      const std::string& configuration);
+[[nodiscard]] std::size_t count_of(const Findings& findings, Finding::Severity severity);
 
 }  // namespace navcal::cli

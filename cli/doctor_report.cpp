@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/doctor_report.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "cli/doctor_checks.h"
 
 namespace navcal::cli {
 namespace {

@@ -3,7 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace navcal::cli {
 
@@ -24,6 +29,45 @@ void add_effect_options(CLI::App* command, std::vector<std::string>& effects, st
           "--effects", file,
           "departures with exact parameters: one table [NAME] for each, which may have from_s and until_s")
       ->option_text("FILE.toml");
+}
+
+namespace {
+
+constexpr double kSlowest = 0.25, kFastest = 4;
+constexpr std::array<std::string_view, 3> kPorts{"compass", "imu", "motor"};
+
+std::optional<sim::ClockFactor> parse(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) return std::nullopt;
+  sim::ClockFactor clock{text.substr(0, equals), 0};
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + equals + 1, end, clock.factor);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  if (!(clock.factor >= kSlowest && clock.factor <= kFastest)) return std::nullopt;
+  for (const auto port : kPorts) {
+    if (clock.port == port) return clock;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_clock_option(CLI::App* command, std::vector<sim::ClockFactor>& clocks) {
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--clock",
+          [&clocks](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const auto clock = parse(text);
+              if (!clock)
+                throw CLI::ValidationError(
+                    "--clock", "must be compass, imu or motor = 0.25 to 4 (rate over nominal): " + text);
+              clocks.push_back(*clock);
+            }
+          },
+          "true rate of compass, imu or motor over the nominal one, by its clock, such as compass=0.99; "
+          "repeatable")
+      ->option_text("PORT=FACTOR");
 }
 
 }  // namespace navcal::cli

@@ -21,7 +21,6 @@
 
 #include "analysis/emulate_session.h"
 #include "base/interruptible.h"
-#include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/effect_options.h"
 #include "cli/place_options.h"

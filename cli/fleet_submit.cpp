@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/fleet_submit.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "cli/fleet_commands.h"
 #include "cli/result_file.h"
 #include "fleet/local_run.h"
 #include "fleet/plan_lock.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/fleet_trial.h"
+#include "validation/fleet_trial.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
+#include "cli/fleet_commands.h"
 #include "cli/result_file.h"
-#include "validation/fleet_trial.h"
 
 namespace navcal::cli {
 namespace {

@@ -10,7 +10,11 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "analysis/failure.h"
+#include "base/interruptible.h"
 
 namespace navcal::cli {
 namespace {
@@ -21,6 +25,11 @@ constexpr std::size_t kLongestSocketLine = 1 << 20;
 [[noreturn]] void refuse_connection(const std::string& address, std::string_view problem) {
   throw std::runtime_error(address + ": " + std::string(problem));
 }
+
+/// A disk that has to be woken takes some seconds.
+constexpr std::chrono::seconds kControlAnswerLimit{30};
+
+[[noreturn]] void fail_control(const std::string& why) { throw analysis::Failure(analysis::Exit::failed, why); }
 
 }  // namespace
 
@@ -88,6 +97,17 @@ std::optional<std::string> LineSocket::next(Clock::time_point until) {
     bytes_.append(chunk.data(), static_cast<std::size_t>(taken));
     if (bytes_.size() > kLongestSocketLine) fail("that is no navcald: it sends no lines");
   }
+}
+
+nlohmann::json ControlLink::ask(const nlohmann::json& request) {
+  socket_.send(request.dump() + "\n");
+  const auto until = LineSocket::Clock::now() + kControlAnswerLimit;
+  const auto line = socket_.next(until);
+  if (!line) fail_control(base::Interruptible::interrupted() ? "interrupted" : "navcald does not answer");
+  auto answer = nlohmann::json::parse(*line, nullptr, false);
+  if (!answer.is_object()) fail_control("that is no navcald: its answer is no JSON object");
+  if (answer.value("ok", false)) return answer;
+  fail_control("navcald: " + answer.value("error", std::string("refused")));
 }
 
 }  // namespace navcal::cli

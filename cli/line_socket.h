@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +33,20 @@ class LineSocket {
   base::Descriptor descriptor_;
   std::string address_;
   std::string bytes_;
+};
+
+/// Requests to navcald's control socket, one after the other.
+class ControlLink {
+ public:
+  /// Throws std::runtime_error when there is no daemon.
+  explicit ControlLink(const std::filesystem::path& control) : socket_(LineSocket::unix_domain(control)) {}
+
+  /// The daemon's answer to a request that it has granted. Throws analysis::Failure with the daemon's words when
+  /// it refuses.
+  nlohmann::json ask(const nlohmann::json& request);
+
+ private:
+  LineSocket socket_;
 };
 
 }  // namespace navcal::cli

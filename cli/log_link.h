@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/control_link.h"
+#include "cli/line_socket.h"
 
 namespace navcal::cli {
 

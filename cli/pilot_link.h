@@ -5,12 +5,23 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "autopilot/autopilot.h"
+#include "autopilot/reading.h"
 #include "cli/line_socket.h"
-#include "cli/pilot_state.h"
 
 namespace navcal::cli {
+
+/// A line of class STATE (docs/status-protocol.md).
+struct StateLine {
+  double time_s = 0;      ///< UTC, of validity
+  bool magnetic = false;  ///< the heading is from magnetic north
+  autopilot::Reading reading;
+};
+
+/// nullopt for a line of another class and for what is no JSON. A value of the wrong kind counts as unknown.
+[[nodiscard]] std::optional<StateLine> parse_state(std::string_view line);
 
 /// Connection of a pilot to a running navcald over its public sockets: the stream of its state, and a lease of
 /// the motor card.

@@ -1,17 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "analysis/failure.h"
+#include "base/interruptible.h"
 #include "base/printable.h"
 #include "cli/commands.h"
-#include "cli/ports_command.h"
+#include "cli/line_socket.h"
 #include "ports/port_list.h"
 
 namespace navcal::cli {
 namespace {
+
+using PortsJson = nlohmann::json;
+
+struct PortsCommandOptions {
+  std::filesystem::path control = "/run/navcal/control";
+  std::string port, name;
+  bool force = false;
+};
+
+constexpr std::chrono::milliseconds kAskAgain{100};
+/// Longer than any dialogue.
+constexpr std::chrono::seconds kOutcomeLimit{60};
+
+[[noreturn]] void fail_command(const std::string& why) { throw analysis::Failure(analysis::Exit::failed, why); }
+
+void list_commands(const PortsCommandOptions& options) {
+  ControlLink link(options.control);
+  const PortsJson answer = link.ask({{"command", "device.commands"}, {"port", options.port}});
+  for (const PortsJson& port : answer.at("ports")) {
+    for (const PortsJson& command : port.at("commands"))
+      fmt::print("{:<12} {:<18} {}{}\n", port.at("port").get<std::string>(), command.at("name").get<std::string>(),
+                 command.at("meaning").get<std::string>(), command.at("force") == true ? " (--force)" : "");
+  }
+}
+
+/// Waits until the dialogue with the device is over, and prints the answer.
+void show_outcome(ControlLink& link, const PortsCommandOptions& options, const PortsJson& number) {
+  const auto until = std::chrono::steady_clock::now() + kOutcomeLimit;
+  while (std::chrono::steady_clock::now() < until && !base::Interruptible::interrupted()) {
+    const PortsJson answer = link.ask({{"command", "device.commands"}, {"port", options.port}});
+    const PortsJson& last = answer.at("ports").at(0).at("last");
+    if (last.at("number") != number) fail_command("another command was given meanwhile");
+    if (last.at("state") == "done")
+      return fmt::print("{}\n", base::printable(last.at("answer").get<std::string>()));
+    if (last.at("state") == "failed")
+      fail_command(fmt::format("{}: {}", options.name, last.at("answer").get<std::string>()));
+    std::this_thread::sleep_for(kAskAgain);
+  }
+  fail_command(options.name + ": its end was not waited for; the log has it as an event device.command");
+}
+
+void give_command(const PortsCommandOptions& options) {
+  const base::Interruptible interruptible;
+  ControlLink link(options.control);
+  const PortsJson answer = link.ask(
+      {{"command", "device.command"}, {"port", options.port}, {"name", options.name}, {"force", options.force}});
+  show_outcome(link, options, answer.at("number"));
+}
+
+void run_command(const PortsCommandOptions& options) {
+  try {
+    options.name.empty() ? list_commands(options) : give_command(options);
+  } catch (const PortsJson::exception& error) {
+    fail_command(std::string("navcald's answer cannot be read: ") + error.what());
+  }
+}
+
+/// Adds `navcal ports command`, which gives the instrument at a port of a running navcald a command.
+void add_ports_command(CLI::App* ports) {
+  const auto options = std::make_shared<PortsCommandOptions>();
+  auto* const command =
+      ports->add_subcommand("command", "gives the instrument at a port of a running navcald a command");
+  command->add_option("PORT", options->port, "name of the port; without it the commands of all ports are listed")
+      ->option_text("PORT");
+  command->add_option("NAME", options->name, "the command; without it those of the port are listed")
+      ->option_text("NAME");
+  command->add_flag("--force", options->force,
+                    "also a command that stops data or makes the device forget something");
+  command->add_option("--control", options->control, "navcald's control socket")
+      ->option_text("SOCKET [/run/navcal/control]");
+  command->footer("The device's answer is printed.\n\nExample: navcal ports command gps receiver_id");
+  command->callback([options] { run_command(*options); });
+}
 
 using OrderedJson = nlohmann::ordered_json;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
-#include "cli/fleet_trial.h"
+#include "cli/fleet_commands.h"
 #include "cli/gap_layouts.h"
 #include "cli/gap_trial.h"
 

@@ -9,7 +9,6 @@
 #include "analysis/progress.h"
 #include "analysis/simulate_run.h"
 #include "base/interruptible.h"
-#include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/effect_options.h"
 #include "cli/place_options.h"

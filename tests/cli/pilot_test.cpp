@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "analysis/failure.h"
+#include "cli/pilot_link.h"
 #include "cli/pilot_plan.h"
 #include "cli/pilot_progress.h"
-#include "cli/pilot_state.h"
 #include "config/mission_file.h"
 
 namespace navcal::cli {
