@@ -21,8 +21,7 @@
 #include "fleet/jobs.h"
 #include "fleet/make_plan.h"
 #include "fleet/merge.h"
-#include "fleet/merge_page.h"
-#include "fleet/plan_list.h"
+#include "fleet/plan_report.h"
 #include "fleet/worker_pool.h"
 
 namespace navcal::cli {

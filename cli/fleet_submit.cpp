@@ -16,10 +16,10 @@
 #include "base/printable.h"
 #include "cli/fleet_commands.h"
 #include "cli/result_file.h"
-#include "fleet/local_run.h"
-#include "fleet/plan_lock.h"
+#include "fleet/plan.h"
 #include "fleet/slurm.h"
 #include "fleet/slurm_run.h"
+#include "fleet/worker_pool.h"
 
 namespace navcal::cli {
 namespace {

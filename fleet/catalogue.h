@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "fleet/database.h"
 #include "fleet/plan.h"
@@ -38,5 +41,21 @@ void add_task(Database& database, const Task& task);
 void add_vehicle(Database& database, const std::string& vehicle, const std::string& name, const std::string& toml);
 void add_configuration(Database& database, const std::string& configuration, const std::string& name,
                        const std::string& toml);
+
+/// Recordings (.cap, .mcap) and vehicles (vehicle.toml) below a folder. Hidden folders, links to folders, and
+/// folders of plans are passed over.
+struct FolderScan {
+  std::vector<RecordingFile> files;                                 ///< by path; without their hashes
+  std::map<std::filesystem::path, std::filesystem::path> vehicles;  ///< vehicle.toml by the folder that it is in
+
+  /// The vehicle.toml of the file's folder or of the nearest one above it, within the scan; empty: there is none.
+  [[nodiscard]] std::filesystem::path vehicle_of(const std::filesystem::path& file) const;
+};
+
+/// Throws analysis::Failure (bad input) when the folder cannot be read.
+[[nodiscard]] FolderScan scan(const std::filesystem::path& folder);
+
+/// Size and time of modification of a file now; false where there is none.
+[[nodiscard]] bool look_at(RecordingFile& file);
 
 }  // namespace navcal::fleet

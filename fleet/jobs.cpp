@@ -4,16 +4,21 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <variant>
 
 #include "analysis/calibrate_run.h"
 #include "analysis/noise/noise_run.h"
 #include "analysis/surfacing_run.h"
 #include "fleet/causes/information_json.h"
-#include "fleet/causes/recording_identity.h"
 #include "gap/verdict/information.h"
 #include "gap/verdict/request.h"
+#include "protocols/device_types.h"
 #include "record/json/calibration_json.h"
 #include "record/recording.h"
 #include "report/gap_report.h"
@@ -22,6 +27,41 @@
 
 namespace navcal::fleet {
 namespace {
+
+/// UTC of the first bytes, by the first mapping of the recording.
+std::optional<std::int64_t> began_utc_ns(record::Recording& recording) {
+  std::optional<std::int64_t> first_ns;
+  while (const auto entry = recording.next()) {
+    if (const auto* read = std::get_if<record::RawRead>(&*entry); read != nullptr && !first_ns) {
+      first_ns = read->time_ns;
+    }
+    if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
+      return first_ns.value_or(change->time_ns) + change->mapping.offset_ns;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Who recorded and when: `vehicle_id`, `vehicle_name`, `began_utc_ns` (null: the recording tells no time), and
+/// the serial numbers of the devices that measure turn rates (`gyro_serial`) and the field or heading
+/// (`compass_serial`). Texts that the recording's configuration does not state are empty. Throws
+/// record::BadRecording.
+nlohmann::ordered_json recording_identity(const std::filesystem::path& file) {
+  const auto recording = record::Recording::open(file);
+  std::string gyro, compass;
+  for (const config::PortSettings& port : recording->settings().ports) {
+    const protocols::Delivery delivers = protocols::device_row(port.protocol).delivers;
+    if (delivers.rates && gyro.empty()) gyro = port.serial_number;
+    if ((delivers.field || delivers.heading) && compass.empty()) compass = port.serial_number;
+  }
+  nlohmann::ordered_json json{{"vehicle_id", recording->settings().vehicle.id},
+                              {"vehicle_name", recording->settings().vehicle.name},
+                              {"gyro_serial", gyro},
+                              {"compass_serial", compass}};
+  const auto began = began_utc_ns(*recording);
+  json["began_utc_ns"] = began ? nlohmann::ordered_json(*began) : nlohmann::ordered_json();
+  return json;
+}
 
 using JobJson = nlohmann::ordered_json;
 

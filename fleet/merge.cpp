@@ -1,14 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/merge.h"
 
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
 #include "analysis/failure.h"
 #include "fleet/database.h"
-#include "fleet/merge_tables.h"
 #include "fleet/result_store.h"
 #include "fleet/whole_writing.h"
 
 namespace navcal::fleet {
 namespace {
+
+using MergedJson = nlohmann::ordered_json;
+
+constexpr const char* kMergeTables = R"(
+PRAGMA page_size=4096;
+PRAGMA user_version=1;
+CREATE TABLE recordings(recording TEXT PRIMARY KEY, path TEXT NOT NULL, bytes INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE vehicles(vehicle TEXT PRIMARY KEY, toml TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE tasks(
+  task INTEGER PRIMARY KEY, job TEXT NOT NULL, recording TEXT NOT NULL, vehicle TEXT, configuration TEXT, bank TEXT,
+  state TEXT NOT NULL, error TEXT, answer TEXT
+);
+CREATE TABLE gap(
+  task INTEGER PRIMARY KEY, verdict TEXT NOT NULL, sentence TEXT, before REAL, after REAL, floor REAL, closed REAL,
+  closed_low REAL, closed_high REAL, heading_error_before_rad REAL, heading_error_after_rad REAL,
+  dead_reckoning_before_m_per_100m REAL, dead_reckoning_after_m_per_100m REAL, duration_s REAL
+);
+CREATE TABLE gap_where(
+  task INTEGER, rank INTEGER, channel TEXT, regime TEXT, gap REAL, floor REAL, unit TEXT, p_value REAL,
+  PRIMARY KEY(task, rank)
+) WITHOUT ROWID;
+CREATE TABLE gap_effects(
+  task INTEGER, role TEXT, rank INTEGER, effect TEXT, probability REAL, PRIMARY KEY(task, role, rank)
+) WITHOUT ROWID;
+CREATE TABLE gap_parameters(
+  task INTEGER, role TEXT, effect TEXT, parameter TEXT, value REAL, std_error REAL,
+  PRIMARY KEY(task, role, effect, parameter)
+) WITHOUT ROWID;
+CREATE TABLE calibrators(
+  task INTEGER, calibrator TEXT, accepted INTEGER, judgement TEXT, reason TEXT, PRIMARY KEY(task, calibrator)
+) WITHOUT ROWID;
+CREATE TABLE calibration_values(
+  task INTEGER, calibrator TEXT, quantity TEXT, value REAL, PRIMARY KEY(task, calibrator, quantity)
+) WITHOUT ROWID;
+)";
+
+/// Binds a number, or NULL where there is none.
+using Number = std::optional<double>;
+
+Number number_at(const MergedJson& object, const char* key) {
+  if (!object.is_object()) return {};
+  const auto at = object.find(key);
+  return at != object.end() && at->is_number() ? Number(at->get<double>()) : Number();
+}
+
+std::string text_at(const MergedJson& object, const char* key) {
+  const auto at = object.find(key);
+  return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
+MergedJson part_at(const MergedJson& object, const char* key) {
+  if (!object.is_object()) return {};
+  const auto at = object.find(key);
+  return at == object.end() ? MergedJson() : *at;
+}
+
+std::optional<std::string> unless_empty(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
 
 namespace fs = std::filesystem;
 
@@ -30,6 +93,93 @@ MergeSummary fill(const Plan& plan, Database& database) {
 }
 
 }  // namespace
+
+void make_merge_tables(Database& database) { database.execute(kMergeTables); }
+
+MergeTables::MergeTables(Database& database)
+    : recording_(database, "INSERT INTO recordings VALUES(?1, ?2, ?3)"),
+      vehicle_(database, "INSERT INTO vehicles VALUES(?1, ?2)"),
+      task_(database, "INSERT INTO tasks VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)"),
+      gap_(database, "INSERT INTO gap VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)"),
+      where_(database, "INSERT INTO gap_where VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)"),
+      effect_(database, "INSERT INTO gap_effects VALUES(?1, ?2, ?3, ?4, ?5)"),
+      parameter_(database, "INSERT INTO gap_parameters VALUES(?1, ?2, ?3, ?4, ?5, ?6)"),
+      calibrator_(database, "INSERT INTO calibrators VALUES(?1, ?2, ?3, ?4, ?5)"),
+      quantity_(database, "INSERT INTO calibration_values VALUES(?1, ?2, ?3, ?4)") {}
+
+void MergeTables::add_recording(const RecordingFile& file) {
+  recording_.run(file.recording, file.path, file.bytes);
+}
+
+void MergeTables::add_vehicle(const std::string& vehicle, const std::string& toml) { vehicle_.run(vehicle, toml); }
+
+void MergeTables::add_task(const Task& task, TaskState state, const std::string& text) {
+  const bool is_done = state == TaskState::done, is_failed = state == TaskState::failed;
+  task_.run(task.number, task.job, task.recording, unless_empty(task.vehicle), unless_empty(task.configuration),
+            unless_empty(task.bank), std::string(name_of(state)), is_failed ? std::optional(text) : std::nullopt,
+            is_done ? std::optional(text) : std::nullopt);
+  if (!is_done) return;
+  try {
+    const auto answer = MergedJson::parse(text);
+    if (task.job == "gap") add_gap(task.number, answer);
+    if (task.job == "calibrate") add_calibration(task.number, answer);
+  } catch (const nlohmann::json::exception& error) {
+    throw DatabaseError(fmt::format("the result of task {} is damaged: {}", task.number, error.what()));
+  }
+}
+
+void MergeTables::add_gap(int task, const MergedJson& answer) {
+  const MergedJson gap = part_at(answer, "gap"), interval = part_at(gap, "closed_ci"),
+                   heading = part_at(gap, "heading_error_rad"),
+                   reckoning = part_at(gap, "dead_reckoning_m_per_100m");
+  const bool has_interval = interval.is_array() && interval.size() == 2;
+  gap_.run(task, text_at(answer, "verdict"), text_at(answer, "sentence"), number_at(gap, "before"),
+           number_at(gap, "after"), number_at(gap, "floor"), number_at(gap, "closed"),
+           has_interval ? Number(interval[0].get<double>()) : Number(),
+           has_interval ? Number(interval[1].get<double>()) : Number(), number_at(heading, "before"),
+           number_at(heading, "after"), number_at(reckoning, "before"), number_at(reckoning, "after"),
+           number_at(answer, "duration_s"));
+  int rank = 0;
+  for (const MergedJson& where : part_at(answer, "where")) {
+    where_.run(task, ++rank, text_at(where, "channel"), text_at(where, "regime"), number_at(where, "gap"),
+               number_at(where, "floor"), text_at(where, "unit"), number_at(where, "p_value"));
+  }
+  add_effects(task, "effect", part_at(answer, "effects"));
+  add_effects(task, "candidate", part_at(answer, "candidates"));
+}
+
+void MergeTables::add_effects(int task, const char* role, const MergedJson& effects) {
+  int rank = 0;
+  for (const MergedJson& effect : effects) {
+    const std::string name = text_at(effect, "name");
+    effect_.run(task, role, ++rank, name, number_at(effect, "probability"));
+    const MergedJson values = part_at(effect, "parameters"), errors = part_at(effect, "std_errors");
+    for (const auto& [parameter, value] : values.items()) {
+      parameter_.run(task, role, name, parameter, number_at(values, parameter.c_str()),
+                     number_at(errors, parameter.c_str()));
+    }
+  }
+}
+
+void MergeTables::add_calibration(int task, const MergedJson& answer) {
+  for (const auto& [calibrator, values] : answer.items()) {
+    if (!values.is_object()) continue;
+    const MergedJson accepted = part_at(values, "accepted");
+    calibrator_.run(task, calibrator, accepted.is_boolean() ? Number(accepted.get<bool>() ? 1 : 0) : Number(),
+                    text_at(values, "judgement"), text_at(values, "reason"));
+    add_quantities(task, calibrator, values);
+  }
+}
+
+void MergeTables::add_quantities(int task, const std::string& calibrator, const MergedJson& values) {
+  const MergedJson flat = values.flatten();
+  for (const auto& [path, value] : flat.items()) {
+    // "/deviation_deg/A" becomes "deviation_deg.A".
+    std::string quantity = path.substr(1);
+    for (char& c : quantity) c = c == '/' ? '.' : c;
+    if (value.is_number()) quantity_.run(task, calibrator, quantity, value.get<double>());
+  }
+}
 
 MergeSummary merge(const Plan& plan, const fs::path& file) {
   const fs::path part = part_of(file);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fleet/merge_page.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "fleet/plan_report.h"
 #include "report/html_page.h"
 
 namespace navcal::fleet {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/descriptor.h"
+
 namespace navcal::fleet {
 
 /// One line of a plan: something that is done with one recording. Recordings, vehicles and configurations are
@@ -58,5 +60,16 @@ struct Plan {
 
 /// The tasks that a text names: "3", "3,7,9", "10-20". Throws analysis::Failure (usage).
 [[nodiscard]] std::vector<const Task*> tasks_named(const Plan& plan, std::string_view text);
+
+/// Held by whoever extends a plan or submits its tasks: two of them would do the same work twice. Gone with its
+/// process.
+class PlanLock {
+ public:
+  /// Throws analysis::Failure when another process holds it, std::system_error when the file cannot be made.
+  explicit PlanLock(const std::filesystem::path& plan);
+
+ private:
+  base::Descriptor file_;
+};
 
 }  // namespace navcal::fleet

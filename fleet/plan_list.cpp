@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fleet/plan_list.h"
-
 #include <fmt/format.h>
 
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/printable.h"
+#include "fleet/plan_report.h"
 
 namespace navcal::fleet {
 namespace {

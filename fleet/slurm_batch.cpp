@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fleet/slurm_batch.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "fleet/slurm_run.h"
 #include "fleet/whole_writing.h"
 
 namespace navcal::fleet {

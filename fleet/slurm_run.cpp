@@ -9,9 +9,8 @@
 #include <thread>
 
 #include "base/interruptible.h"
-#include "fleet/local_run.h"
 #include "fleet/slurm.h"
-#include "fleet/slurm_batch.h"
+#include "fleet/worker_pool.h"
 
 namespace navcal::fleet {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "config/load.h"
 #include "config/vehicle_file.h"
-#include "fleet/folder_scan.h"
+#include "fleet/catalogue.h"
 #include "fleet/jobs.h"
 #include "fleet/whole_writing.h"
 #include "record/content_hash.h"

@@ -7,7 +7,7 @@
 
 #include "analysis/failure.h"
 #include "config/error.h"
-#include "fleet/plan_lock.h"
+#include "fleet/plan.h"
 #include "fleet/result_store.h"
 #include "tests/fleet/fleet_folder.h"
 

@@ -6,8 +6,7 @@
 #include <algorithm>
 
 #include "fleet/database.h"
-#include "fleet/merge_page.h"
-#include "fleet/plan_list.h"
+#include "fleet/plan_report.h"
 #include "fleet/task_run.h"
 #include "tests/fleet/fleet_folder.h"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "fleet/command_output.h"
-#include "fleet/local_run.h"
-#include "fleet/slurm_batch.h"
+#include "fleet/slurm_run.h"
+#include "fleet/worker_pool.h"
 #include "tests/fleet/fleet_folder.h"
 
 namespace navcal::fleet {

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "base/interruptible.h"
-#include "fleet/local_run.h"
 #include "fleet/whole_writing.h"
 #include "tests/fleet/fleet_folder.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analysis/failure.h"
-#include "fleet/merge_tables.h"
+#include "fleet/merge.h"
 #include "fleet/slurm.h"
 #include "tests/fuzz/target.h"
 
