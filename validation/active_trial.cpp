@@ -12,7 +12,6 @@
 #include "base/interruptible.h"
 #include "config/mission_file.h"
 #include "validation/child.h"
-#include "validation/fresh_folder.h"
 #include "validation/missions.h"
 #include "validation/recordings.h"
 #include "validation/sailed_plan.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "validation/arms.h"
-#include "validation/places.h"
+#include "validation/missions.h"
 #include "validation/reference/effects.h"
 #include "validation/reference/run.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "validation/places.h"
+#include "validation/missions.h"
 #include "validation/reference/effects.h"
 #include "validation/reference/run.h"
 

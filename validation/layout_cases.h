@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "validation/places.h"
+#include "validation/missions.h"
 #include "validation/reference/thrusters/swim.h"
 
 namespace navcal::validation {

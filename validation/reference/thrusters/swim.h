@@ -8,8 +8,8 @@
 #include "validation/reference/receiver.h"
 #include "validation/reference/run.h"
 #include "validation/reference/sink.h"
-#include "validation/reference/thrusters/doppler.h"
 #include "validation/reference/thrusters/effects.h"
+#include "validation/reference/thrusters/outputs.h"
 #include "validation/reference/thrusters/pilot.h"
 #include "validation/reference/waters.h"
 
