@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/square.h"
-#include "runs/sessions.h"
+#include "runs/scatter.h"
 
 namespace navcal::runs {
 namespace {

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "runs/response.h"
+
 namespace navcal::runs {
 
 /// One-way random effects: value of a run = mean + what its session has + what the run has.
@@ -29,5 +31,12 @@ inline constexpr std::size_t kRunsOfASession = 3;
 
 /// The correlations of a covariance drawn towards zero by this weight; the variances stay.
 [[nodiscard]] Eigen::MatrixXd with_weaker_correlations(const Eigen::MatrixXd& covariance, double weight);
+
+/// Groups runs into sessions: one day, one ballast, one battery after the other.
+///
+/// The clock of a run has no date, so days overlap on it. A run joins the session whose latest runs it follows
+/// within half an hour and resembles in attitude at rest and in pressure at the surface; else it begins a new one.
+/// Neither commands nor what happens under thrust takes part. Returns the places of the runs, a list a session.
+[[nodiscard]] std::vector<std::vector<std::size_t>> sessions_of(std::span<const RestState> rest);
 
 }  // namespace navcal::runs

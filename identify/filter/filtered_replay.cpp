@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "identify/replay/measured_state.h"
+#include "identify/replay/replayed_motion.h"
 
 namespace navcal::identify {
 namespace {

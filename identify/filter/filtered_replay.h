@@ -10,7 +10,6 @@
 #include "config/layout.h"
 #include "identify/data/recorded_motion.h"
 #include "identify/filter/filter_model.h"
-#include "identify/filter/filter_noises.h"
 #include "identify/parameters.h"
 
 namespace navcal::identify {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/angles.h"
 #include "base/rotation.h"
@@ -13,6 +14,22 @@ namespace {
 
 constexpr double kSteepest_rad = 88 * base::kRadiansPerDegree;
 constexpr double kFastest_m_s = 50, kFastestTurn_rad_s = 50;
+
+/// The value of the reading next to a time; nullopt: none within `within_s`.
+std::optional<double> next_to(const std::vector<Reading>& readings, double time_s, double within_s) {
+  const auto after = std::lower_bound(readings.begin(), readings.end(), time_s,
+                                      [](const Reading& reading, double time) { return reading.time_s < time; });
+  std::optional<double> value;
+  double nearest_s = within_s;
+  const auto consider = [&](const Reading& reading) {
+    if (std::abs(reading.time_s - time_s) > nearest_s) return;
+    nearest_s = std::abs(reading.time_s - time_s);
+    value = reading.value;
+  };
+  if (after != readings.end()) consider(*after);
+  if (after != readings.begin()) consider(*(after - 1));
+  return value;
+}
 
 }  // namespace
 
@@ -65,6 +82,28 @@ MotionPoint ReplayedMotion::at(double time_s) const {
   point.acceleration = a.acceleration + s * (b.acceleration - a.acceleration);
   point.tilt_rad = a.tilt_rad + s * (b.tilt_rad - a.tilt_rad);
   return point;
+}
+
+void measure_state(const RecordedMotion& motion, double time_s, StateVector& now) {
+  constexpr double kNear_s = 1, kFixNear_s = 3;
+  const auto set = [&](Eigen::Index state, Channel channel, double within_s) {
+    const auto value = next_to(motion[channel], time_s, within_s);
+    if (value) now[state] = *value;
+    return value.has_value();
+  };
+  set(0, Channel::north, kFixNear_s);
+  set(1, Channel::east, kFixNear_s);
+  if (!set(2, Channel::gauge_depth, kNear_s)) set(2, Channel::depth, kNear_s);
+  set(3, Channel::roll, kNear_s);
+  set(4, Channel::pitch, kNear_s);
+  set(5, Channel::heading, kNear_s);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    const auto after = [&](Channel first) { return static_cast<Channel>(static_cast<std::size_t>(first) + axis); };
+    if (!set(6 + i, after(Channel::water_x), kNear_s)) set(6 + i, after(Channel::bottom_x), kNear_s);
+    set(9 + i, after(Channel::rate_x), kNear_s);
+  }
+  now.tail<2>() = now.segment<2>(3);
 }
 
 }  // namespace navcal::identify

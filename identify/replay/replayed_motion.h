@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identify/data/actuator_inputs.h"
+#include "identify/data/recorded_motion.h"
 #include "sim/layout/layout_vehicle.h"
 
 namespace navcal::identify {
@@ -40,5 +41,9 @@ struct ReplayedMotion {
 
 /// Fills in the lagged tilt of all points but the first.
 void add_lagged_tilt(ReplayedMotion& motion, double lag_s);
+
+/// Sets what the readings next to a time measure: position, attitude, rates, and the velocity of a Doppler log.
+/// All else stays as it is, but for the lagged tilt, which becomes that of the body.
+void measure_state(const RecordedMotion& motion, double time_s, StateVector& state);
 
 }  // namespace navcal::identify

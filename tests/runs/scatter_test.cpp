@@ -5,8 +5,6 @@
 
 #include <random>
 
-#include "runs/sessions.h"
-
 namespace navcal::runs {
 namespace {
 
