@@ -17,7 +17,6 @@ std::vector<ThesisEstimate> deviation_rows(const analysis::ThesisResults& result
     const analysis::ThesisCompass& ours = results.compass.at(i);
     const calib::thesis::PrintedCompass& printed = calib::thesis::kTable4_1.at(i);
     ThesisEstimate row;
-    row.path = static_cast<int>(i) + 1;
     row.truth = calib::thesis::thesis_deviation()[c + 1] * base::kDegreesPerRadian;
     row.percent_of = row.truth;
     row.printed = printed.deviation_deg.at(coefficient);
@@ -32,45 +31,28 @@ std::vector<ThesisEstimate> deviation_rows(const analysis::ThesisResults& result
   return rows;
 }
 
-struct HeadingErrorRow {
-  int path;
-  const analysis::ThesisCompass* ours;
-  const calib::thesis::PrintedCompass* printed;
-};
-
-ThesisColumnOf<HeadingErrorRow> error_column(const char* key, const char* head, int decimals,
-                                             double (*get)(const HeadingErrorRow&)) {
-  return {{key, head, decimals}, [get](const HeadingErrorRow& row) { return ThesisCell{get(row), {}}; }};
-}
-
 ThesisTablePart heading_error_part(const analysis::ThesisResults& results) {
-  using Row = HeadingErrorRow;
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < results.compass.size(); ++i)
-    rows.push_back({static_cast<int>(i) + 1, &results.compass.at(i), &calib::thesis::kTable4_1.at(i)});
-  const std::vector<ThesisColumnOf<Row>> columns{
-      error_column("path", "path", 0, [](const Row& r) { return static_cast<double>(r.path); }),
-      error_column("thesis_mean_deg", "thesis: mean", 4, [](const Row& r) { return r.printed->mean_deg; }),
-      error_column("thesis_largest_deg", "max", 4, [](const Row& r) { return r.printed->largest_deg; }),
-      error_column("thesis_std_deg", "std", 4, [](const Row& r) { return r.printed->std_deg; }),
-      error_column("checked_mean_deg", "from its B..E: mean", 4,
-                   [](const Row& r) { return r.ours->printed_error.mean_deg; }),
-      error_column("checked_largest_deg", "max", 4,
-                   [](const Row& r) { return r.ours->printed_error.largest_deg; }),
-      error_column("checked_std_deg", "std", 4, [](const Row& r) { return r.ours->printed_error.std_deg; }),
-      error_column("recomputed_mean_deg", "recomputed: mean", 4,
-                   [](const Row& r) { return r.ours->least_squares_error.mean_deg; }),
-      error_column("recomputed_largest_deg", "max", 4,
-                   [](const Row& r) { return r.ours->least_squares_error.largest_deg; }),
-      error_column("recomputed_std_deg", "std", 4,
-                   [](const Row& r) { return r.ours->least_squares_error.std_deg; }),
-      error_column("navcal_largest_deg", "navcal: max", 4,
-                   [](const Row& r) { return r.ours->navcal_error.largest_deg; }),
-      error_column("noise_method_largest_deg", "noise: method of the thesis, max", 2,
-                   [](const Row& r) { return r.ours->least_squares_noisy.largest_deg; }),
-      error_column("noise_navcal_largest_deg", "noise: navcal, max", 3,
-                   [](const Row& r) { return r.ours->navcal_noisy.largest_deg; })};
-  return thesis_part("heading_error", "Error of heading over the whole circle, degrees", rows, columns);
+  const auto& ours = results.compass;
+  const auto& printed = calib::thesis::kTable4_1;
+  using Row = std::size_t;
+  return thesis_part(
+      "heading_error", "Error of heading over the whole circle, degrees", ours.size(),
+      {kThesisPathColumn,
+       {{"thesis_mean_deg", "thesis: mean", 4}, [&](Row i) { return printed.at(i).mean_deg; }},
+       {{"thesis_largest_deg", "max", 4}, [&](Row i) { return printed.at(i).largest_deg; }},
+       {{"thesis_std_deg", "std", 4}, [&](Row i) { return printed.at(i).std_deg; }},
+       {{"checked_mean_deg", "from its B..E: mean", 4}, [&](Row i) { return ours.at(i).printed_error.mean_deg; }},
+       {{"checked_largest_deg", "max", 4}, [&](Row i) { return ours.at(i).printed_error.largest_deg; }},
+       {{"checked_std_deg", "std", 4}, [&](Row i) { return ours.at(i).printed_error.std_deg; }},
+       {{"recomputed_mean_deg", "recomputed: mean", 4},
+        [&](Row i) { return ours.at(i).least_squares_error.mean_deg; }},
+       {{"recomputed_largest_deg", "max", 4}, [&](Row i) { return ours.at(i).least_squares_error.largest_deg; }},
+       {{"recomputed_std_deg", "std", 4}, [&](Row i) { return ours.at(i).least_squares_error.std_deg; }},
+       {{"navcal_largest_deg", "navcal: max", 4}, [&](Row i) { return ours.at(i).navcal_error.largest_deg; }},
+       {{"noise_method_largest_deg", "noise: method of the thesis, max", 2},
+        [&](Row i) { return ours.at(i).least_squares_noisy.largest_deg; }},
+       {{"noise_navcal_largest_deg", "noise: navcal, max", 3},
+        [&](Row i) { return ours.at(i).navcal_noisy.largest_deg; }}});
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/thesis/thesis_results.h"
@@ -20,6 +22,10 @@ struct ThesisColumn {
 
 /// A number, a text, or nothing.
 struct ThesisCell {
+  ThesisCell() = default;
+  ThesisCell(double value) : number(std::isfinite(value) ? std::optional(value) : std::nullopt) {}
+  ThesisCell(std::string words) : text(std::move(words)) {}
+
   std::optional<double> number{};
   std::string text{};
 };
@@ -93,28 +99,20 @@ ThesisPanel thesis_track_panel(const Trace& trace) {
 [[nodiscard]] ThesisTable thesis_compass_table(const analysis::ThesisResults& results);
 [[nodiscard]] std::vector<ThesisTable> thesis_field_tables(const analysis::ThesisResults& results);
 
-/// A column with the way to its number in a row.
-template <class Row>
+/// A column with the way to its cell in a row.
 struct ThesisColumnOf {
   ThesisColumn column;
-  std::function<ThesisCell(const Row&)> get;
+  std::function<ThesisCell(std::size_t row)> get;
 };
+/// Numbers of the paths.
+inline const ThesisColumnOf kThesisPathColumn{{"path", "path", 0},
+                                              [](std::size_t row) { return static_cast<double>(row) + 1; }};
 
-template <class Row>
-ThesisTablePart thesis_part(std::string key, std::string title, const std::vector<Row>& rows,
-                            const std::vector<ThesisColumnOf<Row>>& columns) {
-  ThesisTablePart part{std::move(key), std::move(title), {}, {}};
-  for (const auto& column : columns) part.columns.push_back(column.column);
-  for (const Row& row : rows) {
-    auto& cells = part.rows.emplace_back();
-    for (const auto& column : columns) cells.push_back(column.get(row));
-  }
-  return part;
-}
+[[nodiscard]] ThesisTablePart thesis_part(std::string key, std::string title, std::size_t rows,
+                                          const std::vector<ThesisColumnOf>& columns);
 
 /// Estimates of one coefficient on one path, in its own unit.
 struct ThesisEstimate {
-  int path = 0;
   double truth = 0;
   double printed = 0, printed_percent = 0;
   double recomputed = 0;                  ///< by the method of the thesis, no noise

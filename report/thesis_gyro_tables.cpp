@@ -19,7 +19,6 @@ std::vector<ThesisEstimate> gyro_rows(const analysis::ThesisResults& results, bo
     const ThesisGyro& ours = results.gyro.at(i);
     const PrintedGyro& printed = adaptive ? calib::thesis::kTable3_2.at(i) : calib::thesis::kTable3_1.at(i);
     ThesisEstimate row;
-    row.path = static_cast<int>(i) + 1;
     row.truth = kGyroTruth[coefficient];
     row.percent_of = std::abs(row.truth);
     row.printed = coefficient == 0 ? printed.scale : printed.bias_rad_s;
@@ -40,50 +39,39 @@ std::vector<ThesisTablePart> gyro_parts(const analysis::ThesisResults& results, 
       thesis_estimates("bias_rad_s", "Bias bbar, true value -0.1111 rad/s", gyro_rows(results, adaptive, 1), 4)};
 }
 
-struct ConvergenceRow {
-  int path;
-  const ThesisGyro* gyro;
-};
-
 ThesisCell time_cell(const std::optional<double>& time_s) {
-  if (time_s) return {time_s, {}};
-  return {std::nullopt, "not reached"};
+  return time_s ? ThesisCell(*time_s) : ThesisCell(std::string("not reached"));
 }
 
 ThesisTable convergence_table(const analysis::ThesisResults& results) {
-  using Row = ConvergenceRow;
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < results.gyro.size(); ++i)
-    rows.push_back({static_cast<int>(i) + 1, &results.gyro.at(i)});
+  const auto& gyro = results.gyro;
+  using Row = std::size_t;
   const auto error = [](const Eigen::Vector2d& estimate, int i) {
-    return ThesisCell{100 * (estimate[i] - kGyroTruth[i]) / std::abs(kGyroTruth[i]), {}};
+    return 100 * (estimate[i] - kGyroTruth[i]) / std::abs(kGyroTruth[i]);
   };
-  const std::vector<ThesisColumnOf<Row>> columns{
-      {{"path", "path", 0},
-       [](const Row& r) {
-         return ThesisCell{r.path, {}};
-       }},
+  const std::vector<ThesisColumnOf> columns{
+      kThesisPathColumn,
       {{"identifier_settled_s", "identifier within 5 %, s", 1},
-       [](const Row& r) { return time_cell(r.gyro->adaptive_settled_s); }},
+       [&](Row i) { return time_cell(gyro.at(i).adaptive_settled_s); }},
       {{"noise_identifier_settled_s", "with noise, s", 1},
-       [](const Row& r) { return time_cell(r.gyro->adaptive_noisy_settled_s); }},
+       [&](Row i) { return time_cell(gyro.at(i).adaptive_noisy_settled_s); }},
       {{"identifier_scale_percent", "identifier at the end: abar, %", 2},
-       [&](const Row& r) { return error(r.gyro->adaptive, 0); }},
-      {{"identifier_bias_percent", "bbar, %", 2}, [&](const Row& r) { return error(r.gyro->adaptive, 1); }},
+       [&](Row i) { return error(gyro.at(i).adaptive, 0); }},
+      {{"identifier_bias_percent", "bbar, %", 2}, [&](Row i) { return error(gyro.at(i).adaptive, 1); }},
       {{"navcal_settled_s", "navcal within 5 %, s", 1},
-       [](const Row& r) { return time_cell(r.gyro->navcal_settled_s); }},
+       [&](Row i) { return time_cell(gyro.at(i).navcal_settled_s); }},
       {{"noise_navcal_settled_s", "with noise, s", 1},
-       [](const Row& r) { return time_cell(r.gyro->navcal_noisy_settled_s); }},
+       [&](Row i) { return time_cell(gyro.at(i).navcal_noisy_settled_s); }},
       {{"navcal_scale_percent", "navcal at the end: abar, %", 4},
-       [&](const Row& r) { return error(r.gyro->navcal, 0); }},
-      {{"navcal_bias_percent", "bbar, %", 4}, [&](const Row& r) { return error(r.gyro->navcal, 1); }}};
+       [&](Row i) { return error(gyro.at(i).navcal, 0); }},
+      {{"navcal_bias_percent", "bbar, %", 4}, [&](Row i) { return error(gyro.at(i).navcal, 1); }}};
   return {
       "convergence",
       "Convergence of the adaptive identifier",
       "Seconds after which both estimates stay within 5 % of the true values, without noise and in one run with "
       "noise, and the errors at the end of the path without noise. The identifier has the constants K = -0.75 and "
       "Lambda = diag(2, 0.2). navcal's filter is recursive, too: it updates its estimate with every reading.",
-      {thesis_part("paths", "", rows, columns)}};
+      {thesis_part("paths", "", gyro.size(), columns)}};
 }
 
 }  // namespace

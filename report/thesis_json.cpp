@@ -21,7 +21,7 @@ ThesisJson short_number(double value) {
 }
 
 ThesisJson cell_json(const ThesisCell& cell) {
-  if (cell.number) return std::isfinite(*cell.number) ? ThesisJson(*cell.number) : ThesisJson(nullptr);
+  if (cell.number) return *cell.number;
   return cell.text.empty() ? ThesisJson(nullptr) : ThesisJson(cell.text);
 }
 
