@@ -11,7 +11,7 @@ namespace navcal::analysis {
 using protocols::Date;
 using protocols::Frame;
 
-void describe_imu_card(FieldWriter& fields, const Frame& frame, const std::optional<Date>&) {
+void describe_imu_card(FieldWriter& fields, const Frame& frame) {
   const auto record = protocols::imu_card::decode_record(frame.bytes);
   if (!record) return write_out_of_range(fields);
   fields.number("sequence", record->sequence);
@@ -21,7 +21,7 @@ void describe_imu_card(FieldWriter& fields, const Frame& frame, const std::optio
   fields.end_list();
 }
 
-void describe_motor_card(FieldWriter& fields, const Frame& frame, const std::optional<Date>&) {
+void describe_motor_card(FieldWriter& fields, const Frame& frame) {
   namespace motor_card = protocols::motor_card;
   if (frame.id == motor_card::kMcc) {
     const auto command = motor_card::decode_command(frame.bytes);
@@ -39,7 +39,7 @@ void describe_motor_card(FieldWriter& fields, const Frame& frame, const std::opt
   if (!decoded) write_out_of_range(fields);
 }
 
-void describe_mavlink(FieldWriter& fields, const Frame& frame, const std::optional<Date>&) {
+void describe_mavlink(FieldWriter& fields, const Frame& frame) {
   const auto message = protocols::mavlink::find_message(frame.bytes).message;
   fields.text("message", message.name());
   fields.number("system", message.system);

@@ -10,8 +10,9 @@
 namespace navcal::analysis {
 
 void write_time(FieldWriter& fields, const std::optional<protocols::Date>& date,
-                const std::optional<protocols::TimeOfDay>& time, const std::optional<protocols::Date>& pivot) {
+                const std::optional<protocols::TimeOfDay>& time) {
   if (date && time) {
+    const auto& pivot = fields.pivot();
     const auto moved = pivot ? protocols::correct_rollover(*date, *pivot) : protocols::CorrectedDate{*date, false};
     fields.time("time", moved.date, *time);
     fields.flag("time_corrected", moved.corrected);
@@ -21,9 +22,8 @@ void write_time(FieldWriter& fields, const std::optional<protocols::Date>& date,
   }
 }
 
-void write_position(FieldWriter& fields, const PositionFields& position,
-                    const std::optional<protocols::Date>& pivot) {
-  write_time(fields, position.date, position.time, pivot);
+void write_position(FieldWriter& fields, const PositionFields& position) {
+  write_time(fields, position.date, position.time);
   fields.number("lat", position.lat, 9);
   fields.number("lon", position.lon, 9);
   fields.number("height_m", position.height_m, 3);

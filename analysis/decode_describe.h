@@ -12,31 +12,17 @@
 
 namespace navcal::analysis {
 
-/// Writes the decoded fields of one frame, with the keys of docs/cli.md. `pivot`: dates before it are moved up by
-/// whole epochs of 1024 weeks; nullopt: dates as sent.
-using Describe = void (*)(FieldWriter& fields, const protocols::Frame& frame,
-                          const std::optional<protocols::Date>& pivot);
+/// Writes the decoded fields of one frame, with the keys of docs/cli.md.
+using FrameDescription = void(FieldWriter& fields, const protocols::Frame& frame);
+using Describe = FrameDescription*;
 
-void describe_tcm2(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_imu_card(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_motor_card(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_mavlink(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_oncore(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_nmea(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_samples(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_pd0(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_pd6(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_water_linked(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_paroscientific(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_keller(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_mip(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_pni(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_ubx(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
-void describe_vectornav(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+FrameDescription describe_tcm2, describe_imu_card, describe_motor_card, describe_mavlink, describe_oncore,
+    describe_nmea, describe_samples, describe_pd0, describe_pd6, describe_water_linked, describe_paroscientific,
+    describe_keller, describe_mip, describe_pni, describe_ubx, describe_vectornav;
 
 /// The date and time of a message, null when one of them is absent.
 void write_time(FieldWriter& fields, const std::optional<protocols::Date>& date,
-                const std::optional<protocols::TimeOfDay>& time, const std::optional<protocols::Date>& pivot);
+                const std::optional<protocols::TimeOfDay>& time);
 
 /// The keys that every message with a position has, whatever its protocol.
 struct PositionFields {
@@ -49,8 +35,7 @@ struct PositionFields {
   std::optional<std::uint8_t> visible, tracked;
   std::optional<protocols::Fix> fix;
 };
-void write_position(FieldWriter& fields, const PositionFields& position,
-                    const std::optional<protocols::Date>& pivot);
+void write_position(FieldWriter& fields, const PositionFields& position);
 
 /// The frame is intact, but its content cannot be.
 void write_out_of_range(FieldWriter& fields);

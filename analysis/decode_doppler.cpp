@@ -120,7 +120,7 @@ void write_if_decoded(FieldWriter& fields, const Decoded& decoded) {
 
 }  // namespace
 
-void describe_pd0(FieldWriter& fields, const Frame& frame, const std::optional<protocols::Date>&) {
+void describe_pd0(FieldWriter& fields, const Frame& frame) {
   const pd0::Ensemble ensemble = pd0::decode(frame.bytes);
   if (ensemble.variable) write(fields, *ensemble.variable);
   if (ensemble.fixed) write(fields, *ensemble.fixed);
@@ -129,7 +129,7 @@ void describe_pd0(FieldWriter& fields, const Frame& frame, const std::optional<p
   if (ensemble.invalid_types > 0) write_out_of_range(fields);
 }
 
-void describe_pd6(FieldWriter& fields, const Frame& frame, const std::optional<protocols::Date>&) {
+void describe_pd6(FieldWriter& fields, const Frame& frame) {
   if (frame.id == pd6::kAttitude) {
     write_if_decoded(fields, pd6::decode_attitude(frame.bytes));
   } else if (frame.id == pd6::kTiming) {
@@ -141,7 +141,7 @@ void describe_pd6(FieldWriter& fields, const Frame& frame, const std::optional<p
   }
 }
 
-void describe_water_linked(FieldWriter& fields, const Frame& frame, const std::optional<protocols::Date>&) {
+void describe_water_linked(FieldWriter& fields, const Frame& frame) {
   if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld ||
       frame.id == water_linked::kVelocityJson) {
     write_if_decoded(fields, water_linked::decode_velocity(frame.bytes));

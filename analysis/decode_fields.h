@@ -19,7 +19,10 @@ class FieldWriter {
  public:
   enum class Format : std::uint8_t { json, text };
 
-  FieldWriter(Output& output, Format format) : output_(output), json_(format == Format::json) {}
+  /// `pivot`: dates before it are moved up by whole epochs of 1024 weeks; nullopt: dates as sent.
+  FieldWriter(Output& output, Format format, std::optional<protocols::Date> pivot = {})
+      : output_(output), json_(format == Format::json), pivot_(pivot) {}
+  [[nodiscard]] const std::optional<protocols::Date>& pivot() const { return pivot_; }
 
   void begin_frame(std::string_view protocol, const protocols::Frame& frame);
   /// The frame has a decoder, so far.
@@ -110,6 +113,7 @@ class FieldWriter {
 
   Output& output_;
   bool json_;
+  std::optional<protocols::Date> pivot_;
   bool has_fields_ = false;
   bool first_ = true;  // of the frame, list or object: no comma before it
 };

@@ -52,7 +52,7 @@ void write_filter(FieldWriter& fields, const mip::Packet& packet) {
 
 }  // namespace
 
-void describe_mip(FieldWriter& fields, const protocols::Frame& frame, const std::optional<protocols::Date>&) {
+void describe_mip(FieldWriter& fields, const protocols::Frame& frame) {
   const mip::Packet packet = mip::decode(frame.bytes);
   if (packet.reply) {
     fields.number("command", packet.reply->command);

@@ -41,13 +41,13 @@ void write(FieldWriter& fields, const nmea::Gga& gga) {
   position.dop = value_of(gga.hdop);
   position.tracked = gga.satellites;
   position.fix = gga.fix();
-  write_position(fields, position, std::nullopt);
+  write_position(fields, position);
   write_time_of_day(fields, gga.time);
   fields.number("quality", gga.quality);
   fields.number("geoid_separation_m", gga.geoid_separation_m);
 }
 
-void write(FieldWriter& fields, const nmea::Rmc& rmc, const std::optional<Date>& pivot) {
+void write(FieldWriter& fields, const nmea::Rmc& rmc) {
   PositionFields position;
   position.date = rmc.date;
   position.time = rmc.time;
@@ -55,7 +55,7 @@ void write(FieldWriter& fields, const nmea::Rmc& rmc, const std::optional<Date>&
   position.speed_m_s = value_of(rmc.speed_kn, protocols::kMetresPerSecondPerKnot);
   position.heading_deg = value_of(rmc.course_deg);
   position.fix = rmc.fix();
-  write_position(fields, position, pivot);
+  write_position(fields, position);
   fields.number("variation_deg", rmc.variation_deg);
   fields.letter("mode", rmc.mode);
 }
@@ -64,7 +64,7 @@ void write(FieldWriter& fields, const nmea::Gll& gll) {
   PositionFields position;
   place_into(position, gll.place);
   position.fix = gll.fix();
-  write_position(fields, position, std::nullopt);
+  write_position(fields, position);
   write_time_of_day(fields, gll.time);
   fields.letter("mode", gll.mode);
 }
@@ -97,8 +97,8 @@ void write(FieldWriter& fields, const nmea::Gsv& gsv) {
   });
 }
 
-void write(FieldWriter& fields, const nmea::Zda& zda, const std::optional<Date>& pivot) {
-  write_time(fields, zda.date, zda.time, pivot);
+void write(FieldWriter& fields, const nmea::Zda& zda) {
+  write_time(fields, zda.date, zda.time);
   fields.number("zone_min", zda.zone_min);
 }
 
@@ -147,27 +147,27 @@ void write(FieldWriter& fields, const nmea::Depth& depth) {
 }
 
 // Decoded, or all fields null and said to be out of range.
-template <class Message, class... More>
-void write_or_refuse(FieldWriter& fields, const std::optional<Message>& message, const More&... more) {
-  write(fields, message ? *message : Message{}, more...);
+template <class Message>
+void write_or_refuse(FieldWriter& fields, const std::optional<Message>& message) {
+  write(fields, message ? *message : Message{});
   if (!message) write_out_of_range(fields);
 }
 
 }  // namespace
 
-void describe_nmea(FieldWriter& fields, const Frame& frame, const std::optional<Date>& pivot) {
+void describe_nmea(FieldWriter& fields, const Frame& frame) {
   const nmea::Type type = nmea::type_of(frame.id);
   if (type == Type::other) return;
   const nmea::Sentence sentence(frame.bytes);
   switch (type) {
     case Type::gga: return write_or_refuse(fields, nmea::decode_gga(sentence));
     case Type::gns: return write_or_refuse(fields, nmea::decode_gns(sentence));
-    case Type::rmc: return write_or_refuse(fields, nmea::decode_rmc(sentence), pivot);
+    case Type::rmc: return write_or_refuse(fields, nmea::decode_rmc(sentence));
     case Type::vtg: return write_or_refuse(fields, nmea::decode_vtg(sentence));
     case Type::gll: return write_or_refuse(fields, nmea::decode_gll(sentence));
     case Type::gsa: return write_or_refuse(fields, nmea::decode_gsa(sentence));
     case Type::gsv: return write_or_refuse(fields, nmea::decode_gsv(sentence));
-    case Type::zda: return write_or_refuse(fields, nmea::decode_zda(sentence), pivot);
+    case Type::zda: return write_or_refuse(fields, nmea::decode_zda(sentence));
     case Type::hdt:
     case Type::hdm:
     case Type::hdg:

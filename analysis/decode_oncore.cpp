@@ -43,17 +43,15 @@ void write_channels(FieldWriter& fields, const oncore::Position& position) {
   fields.end_list();
 }
 
-void write(FieldWriter& fields, const oncore::Position& position, const std::optional<Date>& pivot) {
+void write(FieldWriter& fields, const oncore::Position& position) {
   if (!position.in_range) {
-    write_position(fields, {}, pivot);
+    write_position(fields, {});
     return write_out_of_range(fields);
   }
   const auto& place = position.filtered;
-  write_position(
-      fields,
-      {position.date, position.time, place.latitude_deg, place.longitude_deg, place.height_m, place.height_msl_m,
-       position.speed_m_s, position.heading_deg, position.dop, position.visible, position.tracked, position.fix},
-      pivot);
+  write_position(fields, {position.date, position.time, place.latitude_deg, place.longitude_deg, place.height_m,
+                          place.height_msl_m, position.speed_m_s, position.heading_deg, position.dop,
+                          position.visible, position.tracked, position.fix});
   if (position.antenna) fields.text("antenna", name_of(*position.antenna));
   if (position.speed_3d_m_s) fields.number("speed_3d_m_s", *position.speed_3d_m_s, 4);
   if (position.clock_bias_ns) fields.number("clock_bias_ns", *position.clock_bias_ns);
@@ -107,8 +105,8 @@ void write(FieldWriter& fields, const oncore::TimeRaim& raim) {
 
 }  // namespace
 
-void describe_oncore(FieldWriter& fields, const protocols::Frame& frame, const std::optional<Date>& pivot) {
-  if (const auto position = oncore::decode_position(frame.bytes)) return write(fields, *position, pivot);
+void describe_oncore(FieldWriter& fields, const protocols::Frame& frame) {
+  if (const auto position = oncore::decode_position(frame.bytes)) return write(fields, *position);
   if (frame.id == oncore::kBb) return write(fields, *oncore::decode_bb(frame.bytes));
   if (frame.id == oncore::kGj) return write(fields, *oncore::decode_gj(frame.bytes));
   if (frame.id == oncore::kHn) return write(fields, *oncore::decode_hn(frame.bytes));
@@ -119,7 +117,7 @@ void describe_oncore(FieldWriter& fields, const protocols::Frame& frame, const s
     return fields.flag("leap_known", offset_s.has_value());
   }
   if (frame.id == oncore::kEq) {
-    write_position(fields, {}, pivot);
+    write_position(fields, {});
     write_out_of_range(fields);
   }
 }

@@ -28,7 +28,7 @@ void write_data(FieldWriter& fields, const trax::Data& data) {
 
 }  // namespace
 
-void describe_pni(FieldWriter& fields, const protocols::Frame& frame, const std::optional<protocols::Date>&) {
+void describe_pni(FieldWriter& fields, const protocols::Frame& frame) {
   switch (static_cast<trax::FrameNumber>(frame.bytes[2])) {
     case trax::FrameNumber::data:
       if (const auto data = trax::decode_data(frame.bytes)) return write_data(fields, *data);

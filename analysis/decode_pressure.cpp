@@ -10,7 +10,7 @@ namespace navcal::analysis {
 
 using protocols::Frame;
 
-void describe_paroscientific(FieldWriter& fields, const Frame& frame, const std::optional<protocols::Date>&) {
+void describe_paroscientific(FieldWriter& fields, const Frame& frame) {
   namespace paroscientific = protocols::paroscientific;
   const auto address = paroscientific::address_of(frame.bytes);
   fields.number("to", address.to);
@@ -22,7 +22,7 @@ void describe_paroscientific(FieldWriter& fields, const Frame& frame, const std:
   if (!value) write_out_of_range(fields);
 }
 
-void describe_keller(FieldWriter& fields, const Frame& frame, const std::optional<protocols::Date>&) {
+void describe_keller(FieldWriter& fields, const Frame& frame) {
   namespace keller = protocols::keller;
   fields.number("address", frame.bytes[0]);
   if (const auto reading = keller::decode_reading(frame.bytes)) {

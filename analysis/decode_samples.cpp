@@ -40,7 +40,7 @@ void write_list(FieldWriter& fields, std::string_view key, std::string_view insi
 }  // namespace
 
 // Values stand as they were sent: times have more digits than a double.
-void describe_samples(FieldWriter& fields, const protocols::Frame& frame, const std::optional<protocols::Date>&) {
+void describe_samples(FieldWriter& fields, const protocols::Frame& frame) {
   const auto object = samples_line::Object::parse(frame.bytes);
   if (!object) return write_out_of_range(fields);
   samples_line::Fields reader(*object);

@@ -47,7 +47,7 @@ void write(FieldWriter& fields, const tcm2::Reply& reply) {
 
 }  // namespace
 
-void describe_tcm2(FieldWriter& fields, const protocols::Frame& frame, const std::optional<protocols::Date>&) {
+void describe_tcm2(FieldWriter& fields, const protocols::Frame& frame) {
   if (frame.id == tcm2::kWord) {
     const auto word = tcm2::decode_word(frame.bytes);
     write(fields, word.value_or(tcm2::Word{}));

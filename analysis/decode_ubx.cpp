@@ -25,7 +25,7 @@ void put_corrected_time(const ubx::NavPvt& pvt, PositionFields& position) {
   position.time = protocols::time_of_day(*utc_ns);
 }
 
-void write(FieldWriter& fields, const ubx::NavPvt& pvt, const std::optional<Date>& pivot) {
+void write(FieldWriter& fields, const ubx::NavPvt& pvt) {
   PositionFields position;
   put_corrected_time(pvt, position);
   position.fix = pvt.fix();
@@ -41,7 +41,7 @@ void write(FieldWriter& fields, const ubx::NavPvt& pvt, const std::optional<Date
     position.heading_deg = pvt.heading_of_motion_deg;
     position.dop = pvt.pdop;
   }
-  write_position(fields, position, pivot);
+  write_position(fields, position);
   fields.number("time_of_week_ms", pvt.time_of_week_ms);
   fields.flag("fully_resolved", pvt.fully_resolved);
   fields.number("time_accuracy_s", pvt.time_accuracy_s, 9);
@@ -116,17 +116,17 @@ void write(FieldWriter& fields, const ubx::Acknowledgement& answer) {
 }
 
 /// Decoded, or said to be out of range where the payload is too short.
-template <class Message, class... More>
-void write_decoded(FieldWriter& fields, const std::optional<Message>& message, const More&... more) {
-  if (message) return write(fields, *message, more...);
+template <class Message>
+void write_decoded(FieldWriter& fields, const std::optional<Message>& message) {
+  if (message) return write(fields, *message);
   write_out_of_range(fields);
 }
 
 }  // namespace
 
-void describe_ubx(FieldWriter& fields, const protocols::Frame& frame, const std::optional<Date>& pivot) {
+void describe_ubx(FieldWriter& fields, const protocols::Frame& frame) {
   switch (ubx::code_of(frame).value_or(0)) {
-    case ubx::kNavPvt: return write_decoded(fields, ubx::decode_nav_pvt(frame.bytes), pivot);
+    case ubx::kNavPvt: return write_decoded(fields, ubx::decode_nav_pvt(frame.bytes));
     case ubx::kNavTimeGps: return write_decoded(fields, ubx::decode_nav_timegps(frame.bytes));
     case ubx::kNavDop: return write_decoded(fields, ubx::decode_nav_dop(frame.bytes));
     case ubx::kNavSat: return write_decoded(fields, ubx::decode_nav_sat(frame.bytes));

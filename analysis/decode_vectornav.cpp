@@ -59,8 +59,7 @@ void write(FieldWriter& fields, const vn::Reading& reading) {
 
 }  // namespace
 
-void describe_vectornav(FieldWriter& fields, const protocols::Frame& frame,
-                        const std::optional<protocols::Date>&) {
+void describe_vectornav(FieldWriter& fields, const protocols::Frame& frame) {
   if (const auto reading = vn::decode_binary(frame.bytes)) return write(fields, *reading);
   if (const auto reading = vn::decode_line(frame.bytes)) return write(fields, *reading);
   if (const auto content = vn::decode_register(frame.bytes)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "analysis/decode_stream.h"
 #include "protocols/described/reading.h"
 #include "protocols/described/scanner.h"
 
@@ -104,70 +105,44 @@ class RecentBytes {
   std::uint64_t begin_ = 0;
 };
 
-class Check {
- public:
-  explicit Check(const Description& description)
-      : parser_(protocols::described::Scanner(protocols::described::compile(description))) {
-    for (const FrameKind& kind : description.kinds) kinds_.emplace_back(kind, description.is_text);
-  }
-
-  void feed(const TimedBytes& piece) {
-    arrival_ns_ = piece.arrival_ns;
-    recent_.add(parser_.counters().bytes, piece.bytes);
-    parser_.feed(piece.bytes, [this](const protocols::Frame& frame) { on_frame(frame); });
-    recent_.forget_before(framed_until_);
-  }
-
-  DeviceFindings finish() {
-    std::uint64_t unfinished_from = parser_.position();
-    while (parser_.held() > 0) {
-      const std::uint64_t frames = parser_.counters().frames;
-      parser_.silence([this](const protocols::Frame& frame) { on_frame(frame); });
-      if (parser_.counters().frames != frames) unfinished_from = parser_.position();
-    }
-    unfinished_from = std::max(unfinished_from, framed_until_);
-    note_skipped(unfinished_from);
-    findings_.summary.counters = parser_.counters();
-    findings_.summary.incomplete_bytes = parser_.counters().bytes - unfinished_from;
-    for (KindStatistics& kind : kinds_) {
-      findings_.summary.frames[kind.finding.id] = kind.finding.frames;
-      findings_.kinds.push_back(std::move(kind.finding));
-    }
-    return std::move(findings_);
-  }
-
- private:
-  void on_frame(const protocols::Frame& frame) {
-    note_skipped(frame.offset);
-    framed_until_ = frame.end();
-    for (KindStatistics& kind : kinds_) {
-      if (kind.finding.id == frame.id) kind.take(frame.bytes, arrival_ns_);
-    }
-  }
-  void note_skipped(std::uint64_t until) {
-    if (until <= framed_until_) return;
-    ++findings_.skipped_runs;
-    if (findings_.skipped.size() >= kShownRuns) return;
-    const std::uint64_t length = until - framed_until_;
-    findings_.skipped.push_back(
-        {framed_until_, length,
-         recent_.at(framed_until_, static_cast<std::size_t>(std::min<std::uint64_t>(length, kShownBytes)))});
-  }
-
-  protocols::described::Parser parser_;
-  std::deque<KindStatistics> kinds_;
-  RecentBytes recent_;
-  std::optional<std::int64_t> arrival_ns_;
-  std::uint64_t framed_until_ = 0;
-  DeviceFindings findings_;
-};
-
 }  // namespace
 
 DeviceFindings check_device(const Description& description, const std::function<TimedBytes()>& next) {
-  Check check(description);
-  for (TimedBytes piece = next(); !piece.bytes.empty(); piece = next()) check.feed(piece);
-  DeviceFindings findings = check.finish();
+  DeviceFindings findings;
+  std::deque<KindStatistics> kinds;
+  for (const FrameKind& kind : description.kinds) kinds.emplace_back(kind, description.is_text);
+  RecentBytes recent;
+  std::optional<std::int64_t> arrival_ns;
+  std::uint64_t read = 0, framed_until = 0;
+  const auto note_skipped = [&](std::uint64_t until) {
+    if (until <= framed_until) return;
+    ++findings.skipped_runs;
+    if (findings.skipped.size() >= kShownRuns) return;
+    const std::uint64_t length = until - framed_until;
+    findings.skipped.push_back(
+        {framed_until, length,
+         recent.at(framed_until, static_cast<std::size_t>(std::min<std::uint64_t>(length, kShownBytes)))});
+  };
+  findings.summary = decode_stream(
+      [&] {
+        recent.forget_before(framed_until);
+        const TimedBytes piece = next();
+        if (piece.bytes.empty()) return piece.bytes;
+        arrival_ns = piece.arrival_ns;
+        recent.add(read, piece.bytes);
+        read += piece.bytes.size();
+        return piece.bytes;
+      },
+      [&](const protocols::Frame& frame) {
+        note_skipped(frame.offset);
+        framed_until = frame.end();
+        for (KindStatistics& kind : kinds) {
+          if (kind.finding.id == frame.id) kind.take(frame.bytes, arrival_ns);
+        }
+      },
+      protocols::described::Scanner(protocols::described::compile(description)));
+  note_skipped(read - findings.summary.incomplete_bytes);
+  for (KindStatistics& kind : kinds) findings.kinds.push_back(std::move(kind.finding));
   findings.warnings = warnings_about(description, findings);
   return findings;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/decode_summary.h"
@@ -58,6 +59,9 @@ struct DeviceFindings {
 [[nodiscard]] std::string to_text(const DeviceFindings& findings);
 /// One JSON object a line (docs/cli.md, `devices check`).
 [[nodiscard]] std::string to_json(const DeviceFindings& findings);
+
+/// "A5 5A".
+[[nodiscard]] std::string hex_of(std::string_view bytes);
 
 /// What a user should look at before trusting a description: each one sentence.
 [[nodiscard]] std::vector<std::string> warnings_about(const protocols::described::Description& description,

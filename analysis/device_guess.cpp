@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "analysis/device_check.h"
 #include "analysis/device_guess_parts.h"
 #include "analysis/failure.h"
 
@@ -25,13 +26,6 @@ bool is_text(protocols::Bytes capture) {
   });
   const auto ends = std::count(capture.begin(), capture.end(), std::uint8_t{'\n'});
   return static_cast<double>(printable) > kTextShare * static_cast<double>(capture.size()) && ends >= 3;
-}
-
-std::string hex_of(std::string_view bytes) {
-  std::string out;
-  for (const char byte : bytes)
-    out += fmt::format("{}{:02X}", out.empty() ? "" : " ", static_cast<unsigned char>(byte));
-  return out;
 }
 
 std::string rate_line(std::size_t frames, std::optional<double> seconds) {

@@ -9,13 +9,6 @@
 namespace navcal::analysis {
 namespace {
 
-std::string in_hex(const std::string& bytes) {
-  std::string out;
-  for (const char byte : bytes)
-    out += fmt::format("{}{:02X}", out.empty() ? "" : " ", static_cast<unsigned char>(byte));
-  return out;
-}
-
 std::string in_json(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -54,6 +47,13 @@ std::string kind_lines(const KindFinding& kind) {
 
 }  // namespace
 
+std::string hex_of(std::string_view bytes) {
+  std::string out;
+  for (const char byte : bytes)
+    out += fmt::format("{}{:02X}", out.empty() ? "" : " ", static_cast<unsigned char>(byte));
+  return out;
+}
+
 std::string to_text(const DeviceFindings& findings) {
   const auto& counters = findings.summary.counters;
   std::string out = fmt::format(
@@ -61,7 +61,7 @@ std::string to_text(const DeviceFindings& findings) {
       counters.bytes, counters.framed_bytes, counters.frames, findings.summary.skipped_bytes(),
       findings.summary.incomplete_bytes, counters.bad_checksum);
   for (const SkippedRun& run : findings.skipped)
-    out += fmt::format("  skipped {} bytes at {}: {}{}\n", run.length, run.offset, in_hex(run.first_bytes),
+    out += fmt::format("  skipped {} bytes at {}: {}{}\n", run.length, run.offset, hex_of(run.first_bytes),
                        run.length > run.first_bytes.size() ? " ..." : "");
   if (findings.skipped_runs > findings.skipped.size())
     out += fmt::format("  and at {} more places\n", findings.skipped_runs - findings.skipped.size());
@@ -101,7 +101,7 @@ std::string to_json(const DeviceFindings& findings) {
   for (std::size_t i = 0; i < findings.skipped.size(); ++i)
     out += fmt::format(R"({}{{"offset":{},"length":{},"first_bytes":"{}"}})", i > 0 ? "," : "",
                        findings.skipped[i].offset, findings.skipped[i].length,
-                       in_hex(findings.skipped[i].first_bytes));
+                       hex_of(findings.skipped[i].first_bytes));
   return out + "]}\n";
 }
 

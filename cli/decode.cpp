@@ -39,25 +39,34 @@ std::optional<Date> pivot_of(const DecodeArguments& arguments, Protocol protocol
                                                           : std::nullopt;
 }
 
-analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, DecodeSource& input,
-                               analysis::FieldWriter& fields) {
-  const std::string_view name = name_of(protocol);
-  const analysis::Describe describe = analysis::description_of(protocol);
+/// Writes each frame that `decode(next, on_frame)` finds by `describe(frame)`.
+template <class Decode, class DescribeFrame>
+analysis::DecodeSummary write_frames(Protocol protocol, DecodeSource& input, analysis::FieldWriter& fields,
+                                     const Decode& decode, const DescribeFrame& describe) {
   analysis::Progress progress("decode");
-  pipeline::UnusedFrames undecoded;
-  auto summary = analysis::decode_frames(
-      protocol,
+  return decode(
       [&] {
         const protocols::Bytes bytes = input.next();
         input.show(progress);
         return bytes;
       },
       [&](const protocols::Frame& frame) {
-        fields.begin_frame(name, frame);
-        describe(fields, frame, pivot);
-        if (!fields.has_fields()) undecoded.add(frame.id);
+        fields.begin_frame(name_of(protocol), frame);
+        describe(frame);
         fields.end_frame();
       });
+}
+
+analysis::DecodeSummary decode(Protocol protocol, DecodeSource& input, analysis::FieldWriter& fields) {
+  const auto frames = [&](const auto& next, const auto& on_frame) {
+    return analysis::decode_frames(protocol, next, on_frame);
+  };
+  const analysis::Describe describe = analysis::description_of(protocol);
+  pipeline::UnusedFrames undecoded;
+  auto summary = write_frames(protocol, input, fields, frames, [&](const auto& frame) {
+    describe(fields, frame);
+    if (!fields.has_fields()) undecoded.add(frame.id);
+  });
   summary.undecoded = undecoded;
   return summary;
 }
@@ -65,18 +74,9 @@ analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& piv
 analysis::DecodeSummary decode_described(const protocols::described::Description& description, DecodeSource& input,
                                          analysis::FieldWriter& fields) {
   analysis::DescribedDecoder decoder(description);
-  analysis::Progress progress("decode");
-  return decoder.decode(
-      [&] {
-        const protocols::Bytes bytes = input.next();
-        input.show(progress);
-        return bytes;
-      },
-      [&](const protocols::Frame& frame) {
-        fields.begin_frame(name_of(Protocol::described), frame);
-        decoder.describe(fields, frame);
-        fields.end_frame();
-      });
+  const auto frames = [&](const auto& next, const auto& on_frame) { return decoder.decode(next, on_frame); };
+  return write_frames(Protocol::described, input, fields, frames,
+                      [&](const auto& frame) { decoder.describe(fields, frame); });
 }
 
 /// The description that applies: the file's, else that of the recording's port; nullopt: the device has a driver.
@@ -105,11 +105,11 @@ void run(const DecodeArguments& arguments) {
   if (protocol == Protocol::described && !description)
     throw analysis::Failure(analysis::Exit::usage, "a described device is decoded with --device FILE.toml");
   analysis::Output output(STDOUT_FILENO, "standard output");
-  analysis::FieldWriter fields(
-      output, arguments.json ? analysis::FieldWriter::Format::json : analysis::FieldWriter::Format::text);
-  const analysis::DecodeSummary summary = description
-                                              ? decode_described(*description, input, fields)
-                                              : decode(protocol, pivot_of(arguments, protocol), input, fields);
+  using Format = analysis::FieldWriter::Format;
+  analysis::FieldWriter fields(output, arguments.json ? Format::json : Format::text,
+                               pivot_of(arguments, protocol));
+  const analysis::DecodeSummary summary =
+      description ? decode_described(*description, input, fields) : decode(protocol, input, fields);
   if (arguments.json) {
     analysis::write_json(output, summary);
   } else {

@@ -107,7 +107,7 @@ std::vector<nlohmann::json> decoded(const DeviceType& device, const std::vector<
         [&] { return std::exchange(given, true) ? protocols::Bytes{} : protocols::Bytes(stream); },
         [&](const protocols::Frame& frame) {
           fields.begin_frame(device.name, frame);
-          description_of(device.protocol)(fields, frame, std::nullopt);
+          description_of(device.protocol)(fields, frame);
           fields.end_frame();
         });
     output.flush();
