@@ -6,70 +6,69 @@
 #include <algorithm>
 #include <array>
 
-#include "analysis/import/cdr_reader.h"
+#include "protocols/ros2/cdr_reader.h"
+#include "protocols/ros2/ros_messages.h"
 
 namespace navcal::analysis::ros {
 namespace {
 
+namespace ros2 = protocols::ros2;
+
 template <class T>
-void read_list(CdrReader& reader, std::string_view name, CommandValues& found) {
-  const std::size_t count = reader.take_count(sizeof(T));
-  for (std::size_t i = 0; i < count; ++i)
-    found.values.emplace_back(fmt::format("{}[{}]", name, i), static_cast<double>(reader.take<T>()));
+void take_list(const std::vector<T>& numbers, std::string_view name, CommandValues& found) {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    found.values.emplace_back(fmt::format("{}[{}]", name, i), static_cast<double>(numbers[i]));
 }
 
 template <class T>
-void read_number(CdrReader& reader, CommandValues& found) {
-  found.values.emplace_back("data", static_cast<double>(reader.take<T>()));
+void take(const ros2::Number<T>& number, CommandValues& found) {
+  found.values.emplace_back("data", static_cast<double>(number.data));
 }
 
-/// std_msgs/MultiArrayLayout (label, size and stride of each dimension; offset of the data), then the list.
 template <class T>
-void read_array(CdrReader& reader, CommandValues& found) {
-  constexpr std::size_t kLeastDimension = 12;
-  const std::size_t dimensions = reader.take_count(kLeastDimension);
-  for (std::size_t i = 0; i < dimensions; ++i) {
-    reader.skip_text();
-    (void)reader.take<std::uint32_t>();
-    (void)reader.take<std::uint32_t>();
-  }
-  (void)reader.take<std::uint32_t>();
-  read_list<T>(reader, "data", found);
+void take(const ros2::NumberArray<T>& array, CommandValues& found) {
+  take_list(array.data, "data", found);
 }
 
-void read_outputs(CdrReader& reader, CommandValues& found) {
+void take(const ros2::RcOut& outputs, CommandValues& found) {
   found.are_pulses = true;
-  found.stamp_ns = reader.take_header();
-  read_list<std::uint16_t>(reader, "channels", found);
+  found.stamp_ns = outputs.header.stamp_ns();
+  take_list(outputs.channels, "channels", found);
 }
 
-/// Names, then positions (rad, m), velocities and efforts in the order of the names; each list may be empty.
-void read_joints(CdrReader& reader, CommandValues& found) {
-  constexpr std::size_t kLeastText = 4;
-  found.stamp_ns = reader.take_header();
-  std::vector<std::string> names(reader.take_count(kLeastText));
-  for (std::string& name : names) name = reader.take_text();
-  for (const std::string_view what : {"position", "velocity", "effort"}) {
-    const std::size_t count = reader.take_count(sizeof(double));
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto value = reader.take<double>();
-      if (i < names.size()) found.values.emplace_back(fmt::format("{}/{}", names[i], what), value);
-    }
-  }
+void take(const ros2::JointState& joints, CommandValues& found) {
+  found.stamp_ns = joints.header.stamp_ns();
+  const auto take_of = [&](const std::vector<double>& values, std::string_view quantity) {
+    for (std::size_t i = 0; i < std::min(values.size(), joints.name.size()); ++i)
+      found.values.emplace_back(fmt::format("{}/{}", joints.name[i], quantity), values[i]);
+  };
+  take_of(joints.position, "position");
+  take_of(joints.velocity, "velocity");
+  take_of(joints.effort, "effort");
 }
 
 struct CommandType {
-  std::string_view name;
-  void (*read)(CdrReader&, CommandValues&);
+  std::string name;
+  std::optional<CommandValues> (*decode)(std::string_view cdr);
 };
-constexpr std::array kCommandTypes{CommandType{"std_msgs/msg/Float32", read_number<float>},
-                                   CommandType{"std_msgs/msg/Float64", read_number<double>},
-                                   CommandType{"std_msgs/msg/Float32MultiArray", read_array<float>},
-                                   CommandType{"std_msgs/msg/Float64MultiArray", read_array<double>},
-                                   CommandType{"mavros_msgs/msg/RCOut", read_outputs},
-                                   CommandType{"sensor_msgs/msg/JointState", read_joints}};
+template <class Message>
+CommandType type_with_commands() {
+  return {ros2::full_name(Message::kType), [](std::string_view cdr) -> std::optional<CommandValues> {
+            const auto message = ros2::decode<Message>(cdr);
+            if (!message) return std::nullopt;
+            CommandValues found;
+            take(*message, found);
+            return found;
+          }};
+}
 
 const CommandType* command_type(std::string_view name) {
+  static const std::array kCommandTypes{type_with_commands<ros2::Number<float>>(),
+                                        type_with_commands<ros2::Number<double>>(),
+                                        type_with_commands<ros2::NumberArray<float>>(),
+                                        type_with_commands<ros2::NumberArray<double>>(),
+                                        type_with_commands<ros2::RcOut>(),
+                                        type_with_commands<ros2::JointState>()};
   const auto found = std::find_if(kCommandTypes.begin(), kCommandTypes.end(),
                                   [&](const CommandType& type) { return type.name == name; });
   return found == kCommandTypes.end() ? nullptr : &*found;
@@ -81,11 +80,7 @@ bool has_commands(std::string_view type) { return command_type(type) != nullptr;
 
 std::optional<CommandValues> decode_commands(std::string_view type, std::string_view cdr) {
   const CommandType* const known = command_type(type);
-  if (known == nullptr) return std::nullopt;
-  CdrReader reader(cdr);
-  CommandValues found;
-  known->read(reader, found);
-  return reader.is_good() ? std::optional(std::move(found)) : std::nullopt;
+  return known == nullptr ? std::nullopt : known->decode(cdr);
 }
 
 }  // namespace navcal::analysis::ros

@@ -7,18 +7,18 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "analysis/import/cdr_reader.h"
 #include "base/angles.h"
+#include "protocols/ros2/cdr_reader.h"
+#include "protocols/ros2/ros_messages.h"
 
 namespace navcal::analysis::ros {
 namespace {
 
 using protocols::samples_line::LineWriter;
-using Numbers3 = std::array<double, 3>;
-using Numbers9 = std::array<double, 9>;
+namespace ros2 = protocols::ros2;
 
 /// Forward, left, up to forward, starboard, down.
-Numbers3 turned(const Numbers3& flu) { return {flu[0], -flu[1], -flu[2]}; }
+std::array<double, 3> turned(const ros2::Vector3& flu) { return {flu.x, -flu.y, -flu.z}; }
 
 /// Standard error of each axis; nothing where the covariance is unknown (0) or the value absent (-1).
 std::optional<double> std_of(double variance_x, double variance_y) {
@@ -26,158 +26,133 @@ std::optional<double> std_of(double variance_x, double variance_y) {
   return std::sqrt((variance_x + variance_y) / 2);
 }
 
+/// The same where senders state a kilometre, or a kilometre a second, for what they do not know.
+std::optional<double> known_std_of(double variance_x, double variance_y) {
+  return variance_x < ros2::kUnknownVariance ? std_of(variance_x, variance_y) : std::nullopt;
+}
+
 /// Heading, pitch and roll of a body (forward, left, up) in the world (east, north, up).
-void write_attitude(LineWriter& line, const std::array<double, 4>& q) {
-  const auto [x, y, z, w] = q;
-  const double yaw = std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
-  const double pitch = std::asin(std::clamp(2 * (w * y - z * x), -1.0, 1.0));
-  const double roll = std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y));
+void write_attitude(LineWriter& line, const ros2::Quaternion& q) {
+  const double yaw = std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+  const double pitch = std::asin(std::clamp(2 * (q.w * q.y - q.z * q.x), -1.0, 1.0));
+  const double roll = std::atan2(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y));
   line.number("heading_rad", base::as_heading(std::numbers::pi / 2 - yaw)).boolean("heading_is_true", true);
   line.number("pitch_rad", -pitch).number("roll_rad", roll);
 }
 
-bool decode_imu(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  const auto q = reader.take_doubles<4>();
-  const auto q_covariance = reader.take_doubles<9>();
-  const auto rate = reader.take_doubles<3>();
-  const auto rate_covariance = reader.take_doubles<9>();
-  const auto force = reader.take_doubles<3>();
-  const auto force_covariance = reader.take_doubles<9>();
-  if (!reader.is_good()) return false;
-  ImportedSample sample = sample_of(topic, PortKind::imu, log_time_ns, stamp_ns);
-  LineWriter line("IMU");
+/// A message with its topic and the time at which it was logged, on its way to the sink.
+struct Taken {
+  const Topic& topic;
+  std::int64_t log_time_ns;
+  ImportSink& sink;
+
+  [[nodiscard]] ImportedSample sample(const ros2::Header& header, PortKind kind) const {
+    return sample_of(topic, kind, log_time_ns, header.stamp_ns());
+  }
+};
+
+void take(const ros2::Imu& imu, const Taken& to) {
   constexpr double kAbsent = -1;
-  if (rate_covariance[0] != kAbsent) {
-    line.vector("rate_rad_s", turned(rate));
-    line.number("rate_std_rad_s", std_of(rate_covariance[0], rate_covariance[4]));
+  ImportedSample sample = to.sample(imu.header, PortKind::imu);
+  LineWriter line("IMU");
+  const auto &rate = imu.angular_velocity_covariance, &force = imu.linear_acceleration_covariance;
+  if (rate[0] != kAbsent) {
+    line.vector("rate_rad_s", turned(imu.angular_velocity));
+    line.number("rate_std_rad_s", std_of(rate[0], rate[4]));
   }
-  if (force_covariance[0] != kAbsent) {
-    line.vector("specific_force_m_s2", turned(force));
-    line.number("specific_force_std_m_s2", std_of(force_covariance[0], force_covariance[4]));
+  if (force[0] != kAbsent) {
+    line.vector("specific_force_m_s2", turned(imu.linear_acceleration));
+    line.number("specific_force_std_m_s2", std_of(force[0], force[4]));
   }
-  sink.sample(sample, line);
-  const double norm = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  const auto& q = imu.orientation;
+  const double norm = std::hypot(std::hypot(q.x, q.y), std::hypot(q.z, q.w));
   constexpr double kNear = 0.01;
-  if (q_covariance[0] == kAbsent || !(std::abs(norm - 1) < kNear)) return true;
+  const bool has_attitude = imu.orientation_covariance[0] != kAbsent && std::abs(norm - 1) < kNear;
+  if (!has_attitude || rate[0] != kAbsent || force[0] != kAbsent) to.sink.sample(sample, line);
+  if (!has_attitude) return;
   LineWriter attitude("COMPASS");
   write_attitude(attitude, q);
-  sample.port = port_name(PortKind::attitude, topic.instance);
-  sink.sample(sample, attitude);
-  return true;
+  sample.port = port_name(PortKind::attitude, to.topic.instance);
+  to.sink.sample(sample, attitude);
 }
 
-bool decode_field(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
+void take(const ros2::MagneticField& field, const Taken& to) {
   constexpr double kMicrotesla = 1e6;
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  auto field = turned(reader.take_doubles<3>());
-  const auto covariance = reader.take_doubles<9>();
-  if (!reader.is_good()) return false;
-  for (double& component : field) component *= kMicrotesla;
+  auto field_uT = turned(field.magnetic_field);
+  for (double& component : field_uT) component *= kMicrotesla;
   LineWriter line("COMPASS");
-  line.vector("field_body_uT", field);
+  line.vector("field_body_uT", field_uT);
+  const auto& covariance = field.magnetic_field_covariance;
   if (const auto std_T = std_of(covariance[0], covariance[4])) line.number("field_std_uT", *std_T * kMicrotesla);
-  sink.sample(sample_of(topic, PortKind::compass, log_time_ns, stamp_ns), line);
-  return true;
+  to.sink.sample(to.sample(field.header, PortKind::compass), line);
 }
 
-bool decode_fix(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  const auto status = reader.take<std::int8_t>();
-  (void)reader.take<std::uint16_t>();
-  const auto place = reader.take_doubles<3>();
-  const auto covariance = reader.take_doubles<9>();
-  const auto covariance_type = reader.take<std::uint8_t>();
-  if (!reader.is_good()) return false;
+void take(const ros2::NavSatFix& fix, const Taken& to) {
   LineWriter line("GPS");
-  line.text("fix", status < 0 ? "none" : std::isfinite(place[2]) ? "3d" : "2d");
-  if (status >= 0) {
-    line.number("lat", place[0]).number("lon", place[1]).number("height_m", place[2]);
-    if (covariance_type > 0) {
+  const bool has_fix = fix.status.status >= ros2::NavSatStatus::kFix;
+  line.text("fix", !has_fix ? "none" : std::isfinite(fix.altitude) ? "3d" : "2d");
+  if (has_fix) {
+    line.number("lat", fix.latitude).number("lon", fix.longitude).number("height_m", fix.altitude);
+    const auto& covariance = fix.position_covariance;
+    if (fix.position_covariance_type != ros2::NavSatFix::kUnknown) {
       line.number("position_std_m", std_of(covariance[0], covariance[4]));
-      line.number("height_std_m", std_of(covariance[8], covariance[8]));
+      line.number("height_std_m", known_std_of(covariance[8], covariance[8]));
     }
   }
-  sink.sample(sample_of(topic, PortKind::gps, log_time_ns, stamp_ns), line);
-  return true;
+  to.sink.sample(to.sample(fix.header, PortKind::gps), line);
 }
 
-bool decode_pressure(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  const auto pressure_Pa = reader.take<double>(), variance = reader.take<double>();
-  if (!reader.is_good()) return false;
+void take(const ros2::FluidPressure& pressure, const Taken& to) {
   LineWriter line("DEPTH");
-  line.number("pressure_Pa", pressure_Pa).number("pressure_std_Pa", std_of(variance, variance));
-  sink.sample(sample_of(topic, PortKind::depth, log_time_ns, stamp_ns), line);
-  return true;
+  line.number("pressure_Pa", pressure.fluid_pressure);
+  line.number("pressure_std_Pa", std_of(pressure.variance, pressure.variance));
+  to.sink.sample(to.sample(pressure.header, PortKind::depth), line);
 }
 
-bool decode_temperature(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  const auto temperature_C = reader.take<double>(), variance = reader.take<double>();
-  if (!reader.is_good()) return false;
+void take(const ros2::Temperature& temperature, const Taken& to) {
   LineWriter line("SENSOR");
-  line.text("quantity", "temperature").text("unit", "degC").number("value", temperature_C);
-  line.number("value_std", std_of(variance, variance));
-  sink.sample(sample_of(topic, PortKind::sensors, log_time_ns, stamp_ns), line);
-  return true;
+  line.text("quantity", "temperature").text("unit", "degC").number("value", temperature.temperature);
+  line.number("value_std", std_of(temperature.variance, temperature.variance));
+  to.sink.sample(to.sample(temperature.header, PortKind::sensors), line);
 }
 
-bool decode_twist(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  const auto velocity = reader.take_doubles<3>();
-  (void)reader.take_doubles<3>();
-  const auto covariance = reader.take_doubles<36>();
-  if (!reader.is_good()) return false;
+void take(const ros2::TwistWithCovarianceStamped& stamped, const Taken& to) {
   constexpr std::size_t kYy = 7;
+  const auto& [twist, covariance] = stamped.twist;
   LineWriter line("DVL");
-  line.text("frame", "body").vector("bottom_velocity_m_s", turned(velocity));
-  line.number("bottom_velocity_std_m_s", std_of(covariance[0], covariance[kYy]));
-  sink.sample(sample_of(topic, PortKind::dvl, log_time_ns, stamp_ns), line);
-  return true;
+  line.text("frame", "body").vector("bottom_velocity_m_s", turned(twist.linear));
+  line.number("bottom_velocity_std_m_s", known_std_of(covariance[0], covariance[kYy]));
+  to.sink.sample(to.sample(stamped.header, PortKind::dvl), line);
 }
 
-bool decode_battery(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  const auto voltage_V = reader.take<float>();
-  (void)reader.take<float>();
-  const auto current_A = reader.take<float>();  // negative when it is discharged
-  if (!reader.is_good()) return false;
+void take(const ros2::BatteryState& battery, const Taken& to) {
   LineWriter line("POWER");
-  line.number("voltage_V", static_cast<double>(voltage_V)).number("current_A", -static_cast<double>(current_A));
-  sink.sample(sample_of(topic, PortKind::battery, log_time_ns, stamp_ns), line);
-  return true;
+  line.number("voltage_V", static_cast<double>(battery.voltage));
+  line.number("current_A", -static_cast<double>(battery.current));
+  to.sink.sample(to.sample(battery.header, PortKind::battery), line);
 }
 
-bool decode_range(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
-  CdrReader reader(cdr);
-  const std::int64_t stamp_ns = reader.take_header();
-  (void)reader.take<std::uint8_t>();
-  (void)reader.take<float>();
-  const auto least = reader.take<float>(), most = reader.take<float>(), range = reader.take<float>();
-  if (!reader.is_good()) return false;
+void take(const ros2::Range& range, const Taken& to) {
   LineWriter line("ALTIMETER");
-  if (range >= least && range <= most) line.number("altitude_m", static_cast<double>(range));
-  sink.sample(sample_of(topic, PortKind::altimeter, log_time_ns, stamp_ns), line);
-  return true;
+  if (range.range >= range.min_range && range.range <= range.max_range) {
+    line.number("altitude_m", static_cast<double>(range.range));
+    const auto variance = static_cast<double>(range.variance.value_or(0));
+    line.number("altitude_std_m", std_of(variance, variance));
+  }
+  to.sink.sample(to.sample(range.header, PortKind::altimeter), line);
 }
 
-constexpr std::array kTypes{
-    MessageType{"sensor_msgs/msg/Imu", PortKind::imu, decode_imu},
-    MessageType{"sensor_msgs/msg/MagneticField", PortKind::compass, decode_field},
-    MessageType{"sensor_msgs/msg/NavSatFix", PortKind::gps, decode_fix},
-    MessageType{"sensor_msgs/msg/FluidPressure", PortKind::depth, decode_pressure},
-    MessageType{"sensor_msgs/msg/Temperature", PortKind::sensors, decode_temperature},
-    MessageType{"sensor_msgs/msg/BatteryState", PortKind::battery, decode_battery},
-    MessageType{"sensor_msgs/msg/Range", PortKind::altimeter, decode_range},
-    MessageType{"geometry_msgs/msg/TwistWithCovarianceStamped", PortKind::dvl, decode_twist}};
+template <class Message>
+bool decode_and_take(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink) {
+  const auto message = ros2::decode<Message>(cdr);
+  if (message) take(*message, Taken{topic, log_time_ns, sink});
+  return message.has_value();
+}
+
+template <class Message>
+MessageType type_of(PortKind kind) {
+  return {ros2::full_name(Message::kType), kind, decode_and_take<Message>};
+}
 
 }  // namespace
 
@@ -189,6 +164,14 @@ ImportedSample sample_of(const Topic& topic, PortKind kind, std::int64_t log_tim
 }
 
 const MessageType* message_type(std::string_view name) {
+  static const std::array kTypes{type_of<ros2::Imu>(PortKind::imu),
+                                 type_of<ros2::MagneticField>(PortKind::compass),
+                                 type_of<ros2::NavSatFix>(PortKind::gps),
+                                 type_of<ros2::FluidPressure>(PortKind::depth),
+                                 type_of<ros2::Temperature>(PortKind::sensors),
+                                 type_of<ros2::BatteryState>(PortKind::battery),
+                                 type_of<ros2::Range>(PortKind::altimeter),
+                                 type_of<ros2::TwistWithCovarianceStamped>(PortKind::dvl)};
   const auto found =
       std::find_if(kTypes.begin(), kTypes.end(), [&](const MessageType& t) { return t.name == name; });
   return found == kTypes.end() ? nullptr : &*found;

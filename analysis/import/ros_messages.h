@@ -20,7 +20,7 @@ struct Topic {
 using Decoder = bool (*)(std::string_view cdr, const Topic& topic, std::int64_t log_time_ns, ImportSink& sink);
 
 struct MessageType {
-  std::string_view name;  ///< "sensor_msgs/msg/Imu"
+  std::string name;  ///< "sensor_msgs/msg/Imu"
   PortKind kind;
   Decoder decode;
 };
