@@ -95,7 +95,7 @@ void take(const ros2::NavSatFix& fix, const Taken& to) {
     line.number("lat", fix.latitude).number("lon", fix.longitude).number("height_m", fix.altitude);
     const auto& covariance = fix.position_covariance;
     if (fix.position_covariance_type != ros2::NavSatFix::kUnknown) {
-      line.number("position_std_m", std_of(covariance[0], covariance[4]));
+      line.number("position_std_m", known_std_of(covariance[0], covariance[4]));
       line.number("height_std_m", known_std_of(covariance[8], covariance[8]));
     }
   }

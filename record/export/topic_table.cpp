@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <functional>
 
 #include "record/json/flat_json.h"
@@ -33,13 +32,6 @@ TopicTable::Values values_for(const Field& field) {
   if (holds(kUtc, field.name)) return NanosecondColumn{{}, true};
   if (holds(kIntervals, field.name)) return NanosecondColumn{{}, false};
   return NumberColumn{};
-}
-
-double number_or_nan(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::numeric_limits<double>::quiet_NaN();
-  return value;
 }
 
 }  // namespace

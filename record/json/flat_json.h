@@ -9,6 +9,9 @@
 
 namespace navcal::record {
 
+/// Not a number for a text that is none.
+[[nodiscard]] double number_or_nan(std::string_view text);
+
 /// The scalar members of a JSON object, as text: numbers keep every digit they were written with, null is empty.
 /// What lies deeper has a dotted name: "fins_rad.0", "ports.1.name".
 class FlatJson {
