@@ -93,6 +93,9 @@ void add_log(CLI::App& app) {
       Form{"--csv", "DIR", "folder for one CSV file per topic", record::export_csv},
       Form{"--netcdf", "FILE", "netCDF-4 file by the CF conventions, one group per topic", record::export_netcdf},
       Form{"--mat", "FILE", "MAT-file for MATLAB and Octave, one structure per topic", record::export_mat},
+      Form{"--ros2", "FILE", "bag of ROS 2 (.mcap), axes of REP 103", record::export_ros2},
+      Form{"--ros2-ned", "FILE", "the same in the axes of navcal: forward, starboard, down; north, east, down",
+           record::export_ros2_ned},
       Form{"--cap", "FILE|-", "capture of the raw bytes; - is standard output", record::export_capture}};
   std::vector<CLI::Option*> forms;
   for (const Form& form : kForms) {
@@ -111,7 +114,8 @@ void add_log(CLI::App& app) {
       "docs/export.md describes the columns of the tables.\n\nExample: navcal log export --csv dive/ dive.mcap\n"
       "         navcal log export --netcdf dive.nc dive.mcap");
   out->callback([options] {
-    if (options->exporter == nullptr) throw CLI::RequiredError("one of --csv, --netcdf, --mat and --cap");
+    if (options->exporter == nullptr)
+      throw CLI::RequiredError("one of --csv, --netcdf, --mat, --ros2, --ros2-ned and --cap");
     export_log(options->file, options->exporter, options->to);
   });
   add_log_surfacings(*log);

@@ -37,4 +37,12 @@ Exported export_netcdf(const std::filesystem::path& log, const std::filesystem::
 /// topic is larger than such a file can hold.
 Exported export_mat(const std::filesystem::path& log, const std::filesystem::path& file, const Progress& progress);
 
+/// A log's samples, estimates and health as a bag of ROS 2 (docs/export.md); publish_time is the time of validity,
+/// log_time that of arrival, both UTC; nothing of before UTC was known. Throws as above.
+Exported export_ros2(const std::filesystem::path& log, const std::filesystem::path& bag, const Progress& progress);
+
+/// The same in the axes of navcal.
+Exported export_ros2_ned(const std::filesystem::path& log, const std::filesystem::path& bag,
+                         const Progress& progress);
+
 }  // namespace navcal::record

@@ -96,27 +96,14 @@ struct LogEncoder::State {
 
   void append_schema(std::string& out, const Topic& topic) {
     const std::size_t begin = out.size();
-    {
-      const RecordScope record(out, Opcode::schema);
-      append_le(out, topic.id);
-      append_mcap_string(out, topic.schema_name);
-      append_mcap_string(out, "jsonschema");
-      append_mcap_string(out, json_schema(topic));
-    }
+    record::append_schema(out, topic.id, topic.schema_name, "jsonschema", json_schema(topic));
     summary.add_schema(topic.id, std::string_view(out).substr(begin));
   }
 
   void append_channel(std::string& out, std::uint16_t id, std::uint16_t schema, std::string_view name,
                       std::string_view encoding, std::string_view metadata) {
     const std::size_t begin = out.size();
-    {
-      const RecordScope record(out, Opcode::channel);
-      append_le(out, id);
-      append_le(out, schema);
-      append_mcap_string(out, name);
-      append_mcap_string(out, encoding);
-      append_mcap_string(out, metadata);
-    }
+    record::append_channel(out, id, schema, name, encoding, metadata);
     summary.add_channel(id, std::string_view(out).substr(begin));
   }
 

@@ -39,6 +39,8 @@ const UtcMapping& LogUtc::in_place_of(const UtcMapping& logged) const {
   return utc_kind(logged) < utc_kind(best_) ? best_ : logged;
 }
 
+bool LogUtc::is_known() const { return utc_kind(mapping()) != UtcKind::none; }
+
 std::string_view LogUtc::on_scale(const LogMessage& message, const LogReader& log) {
   if (log.channels().at(message.channel).topic == "/time") {
     if (const auto change = mapping_from_json(message.data)) {

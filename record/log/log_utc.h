@@ -22,6 +22,9 @@ class LogUtc {
   /// The mapping that holds where the log has this one.
   [[nodiscard]] const pipeline::UtcMapping& in_place_of(const pipeline::UtcMapping& logged) const;
 
+  /// Whether mapping() leads to UTC; otherwise to the time since the computer was started.
+  [[nodiscard]] bool is_known() const;
+
   /// A JSON message with its times on the scale; its checksum is that of the log. Valid until the next call.
   /// Takes the log's messages in their order, those of /time too.
   [[nodiscard]] std::string_view on_scale(const LogMessage& message, const LogReader& log);

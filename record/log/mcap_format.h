@@ -16,6 +16,9 @@ enum class Opcode : std::uint8_t {
   schema = 0x03,
   channel = 0x04,
   message = 0x05,
+  chunk = 0x06,  ///< these three are in bags of ROS alone
+  message_index = 0x07,
+  chunk_index = 0x08,
   statistics = 0x0B,
   metadata = 0x0C,
   metadata_index = 0x0D,
@@ -81,11 +84,31 @@ class RecordScope {
   std::size_t content_ = 0;
 };
 
+inline void append_schema(std::string& out, std::uint16_t id, std::string_view name, std::string_view encoding,
+                          std::string_view data) {
+  const RecordScope record(out, Opcode::schema);
+  append_le(out, id);
+  append_mcap_string(out, name);
+  append_mcap_string(out, encoding);
+  append_mcap_string(out, data);
+}
+
+/// `metadata`: pairs of texts.
+inline void append_channel(std::string& out, std::uint16_t id, std::uint16_t schema, std::string_view topic,
+                           std::string_view encoding, std::string_view metadata) {
+  const RecordScope record(out, Opcode::channel);
+  append_le(out, id);
+  append_le(out, schema);
+  append_mcap_string(out, topic);
+  append_mcap_string(out, encoding);
+  append_mcap_string(out, metadata);
+}
+
 /// Magic and Header: how every log begins.
-[[nodiscard]] inline std::string empty_log_head() {
+[[nodiscard]] inline std::string empty_log_head(std::string_view profile = kProfile) {
   std::string out(kMcapMagic);
   const RecordScope record(out, Opcode::header);
-  append_mcap_string(out, kProfile);
+  append_mcap_string(out, profile);
   append_mcap_string(out, "navcal");
   return out;
 }

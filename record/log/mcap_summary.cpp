@@ -61,7 +61,7 @@ void McapSummary::append_statistics(std::string& out) const {
   append_le(out, static_cast<std::uint32_t>(channels_.size()));
   append_le(out, std::uint32_t{0});  // attachments
   append_le(out, metadata_);
-  append_le(out, std::uint32_t{0});  // chunks
+  append_le(out, chunks_);
   append_le(out, start_ns());
   append_le(out, end_ns_);
   append_le(out, static_cast<std::uint32_t>(channels_.size() * (sizeof(std::uint16_t) + sizeof(std::uint64_t))));
@@ -87,6 +87,7 @@ void McapSummary::append_end(std::string& out, std::uint64_t data_bytes) const {
     for (const auto& [id, channel] : channels_) out += channel.record;
   });
   groups.add(Opcode::statistics, [&] { append_statistics(out); });
+  groups.add(Opcode::chunk_index, [&] { out += chunk_indexes_; });
   groups.add(Opcode::metadata_index, [&] { out += metadata_index_; });
   const std::uint64_t offsets_start = groups.here();
   out += groups.offsets();

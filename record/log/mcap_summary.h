@@ -20,6 +20,11 @@ class McapSummary {
   void add_schema(std::uint16_t id, std::string_view record) { schemas_.try_emplace(id, record); }
   void add_channel(std::uint16_t id, std::string_view record);
   void add_metadata(std::uint64_t offset, std::uint64_t length, std::string_view name);
+  /// Index of a chunk, a whole record.
+  void add_chunk(std::string_view index_record) {
+    chunk_indexes_ += index_record;
+    ++chunks_;
+  }
   void add_message(std::uint16_t channel, std::uint64_t log_time_ns);
 
   /// DataEnd, summary and summary offset sections, Footer and magic, for a data section of `data_bytes`.
@@ -36,6 +41,8 @@ class McapSummary {
   std::map<std::uint16_t, Channel> channels_;
   std::string metadata_index_;
   std::uint32_t metadata_ = 0;
+  std::string chunk_indexes_;
+  std::uint32_t chunks_ = 0;
   std::uint64_t messages_ = 0;
   std::uint64_t start_ns_ = UINT64_MAX;
   std::uint64_t end_ns_ = 0;

@@ -49,6 +49,11 @@ TEST_F(LogCommand, ExportWritesWhatWasAskedFor) {
   EXPECT_EQ(read(path_ / "a.nc").substr(1, 3), "HDF");
   EXPECT_EQ(run({"export", "--mat", (path_ / "a.mat").string(), file}).output, (path_ / "a.mat\n").string());
   EXPECT_EQ(read(path_ / "a.mat").substr(0, 19), "MATLAB 5.0 MAT-file");
+  const auto bag = (path_ / "bag.mcap").string(), back = (path_ / "back.mcap").string();
+  EXPECT_EQ(run({"export", "--ros2", bag, file}).output, bag + "\n");
+  EXPECT_EQ(run({"import", "-o", back, bag}).status, 0) << "a bag becomes a log again";
+  EXPECT_NE(run({"export", "--ros2", file, file}).status, 0) << "no input is written over";
+  EXPECT_EQ(read(file), record::testing::sample_log(1, true).bytes);
 }
 
 TEST_F(LogCommand, ImportMakesALogThatHoldsTheCapture) {

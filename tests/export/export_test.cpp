@@ -87,8 +87,12 @@ TEST_P(ExportFile, AFolderThatIsNotThereIsNamed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Export, ExportFile, ::testing::Values(export_netcdf, export_mat),
-                         [](const auto& form) { return form.param == export_netcdf ? "Netcdf" : "Mat"; });
+INSTANTIATE_TEST_SUITE_P(Export, ExportFile, ::testing::Values(export_netcdf, export_mat, export_ros2),
+                         [](const auto& form) {
+                           return form.param == export_netcdf ? "Netcdf"
+                                  : form.param == export_mat  ? "Mat"
+                                                              : "Ros2";
+                         });
 
 TEST(TopicTable, EveryFieldOfEveryTopicHasItsMeaning) {
   for (const Topic& topic : json_topics()) {
