@@ -8,10 +8,9 @@
 
 namespace navcal::analysis {
 
-/// A chunk of a ROS 2 bag that is `size` bytes when it is whole. `compression` is "lz4" or "zstd". nullopt:
-/// another one, or damaged.
-[[nodiscard]] std::optional<std::string> decompressed_chunk(std::string_view compression, std::string_view bytes,
-                                                            std::uint64_t size);
+/// A chunk of a ROS 2 bag. `compression` is "lz4" (frames) or "zstd". nullopt: another one, damaged, or more than
+/// 256 MiB when it is whole.
+[[nodiscard]] std::optional<std::string> decompressed_chunk(std::string_view compression, std::string_view bytes);
 
 /// A compressed file of a Slocum glider: blocks of LZ4, each behind its length in two bytes, big-endian. Ends
 /// before the first block that is damaged or not whole.

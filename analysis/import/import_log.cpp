@@ -248,8 +248,9 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   ImportFindings findings = read(survey);
   const auto ports = survey.ports();
   if (ports.empty())
-    throw record::BadRecording(
-        fmt::format("{}: a {} without any message that can be taken", report.input, format.description));
+    throw record::BadRecording(fmt::format("{}: a {} without any message that can be taken{}{}", report.input,
+                                           format.description, findings.remarks.empty() ? "" : "; ",
+                                           fmt::join(findings.remarks, "; ")));
   const pipeline::UtcMapping mapping = mapping_of(findings, survey, report);
   const config::Settings settings = settings_for(input, ports);
   LogBuilder builder(settings, log);

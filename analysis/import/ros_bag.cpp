@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "analysis/import/decompress.h"
 #include "analysis/import/ros_commands.h"
 #include "analysis/import/ros_messages.h"
 #include "analysis/import/wire_reader.h"
-#include "record/log/mcap_format.h"
+#include "record/log/checksum.h"
+#include "record/log/mcap_fields.h"
 #include "record/recording.h"
 
 namespace navcal::analysis {
@@ -19,31 +21,8 @@ namespace {
 
 using record::kMcapMagic;
 using record::kRecordHead;
+using record::McapFields;
 using record::Opcode;
-
-constexpr std::uint8_t kChunk = 0x06;
-
-/// Takes fields of a record from front to back; what lies beyond its end is empty or zero.
-class RecordReader {
- public:
-  explicit RecordReader(std::string_view record) : rest_(record) {}
-  template <class T>
-  T number() {
-    const T value = little_endian_at<T>(rest_, 0);
-    rest_.remove_prefix(std::min(sizeof(T), rest_.size()));
-    return value;
-  }
-  std::string_view text() {
-    const std::size_t length = std::min<std::size_t>(number<std::uint32_t>(), rest_.size());
-    const std::string_view taken = rest_.substr(0, length);
-    rest_.remove_prefix(length);
-    return taken;
-  }
-  [[nodiscard]] std::string_view rest() const { return rest_; }
-
- private:
-  std::string_view rest_;
-};
 
 struct BagChannel {
   ros::Topic topic;
@@ -73,8 +52,8 @@ class RosBag {
         if (!ended_ && !findings_.cut_at) findings_.cut_at = offset;
         return;
       }
-      const auto opcode = static_cast<std::uint8_t>(records.front());
-      if (opcode == kChunk && !is_file)
+      const auto opcode = static_cast<Opcode>(records.front());
+      if (opcode == Opcode::chunk && !is_file)
         throw record::BadRecording(fmt::format("byte {}: a chunk in a chunk", offset));
       take(opcode, records.substr(kRecordHead, length), offset + kRecordHead);
       records.remove_prefix(kRecordHead + length);
@@ -85,9 +64,9 @@ class RosBag {
     if (is_file && !ended_) findings_.cut_at = offset;
   }
 
-  void take(std::uint8_t opcode, std::string_view record, std::uint64_t offset) {
-    if (opcode == kChunk) return take_chunk(record, offset);
-    switch (static_cast<Opcode>(opcode)) {
+  void take(Opcode opcode, std::string_view record, std::uint64_t offset) {
+    switch (opcode) {
+      case Opcode::chunk: return take_chunk(record, offset);
       case Opcode::schema: return take_schema(record);
       case Opcode::channel: return take_channel(record);
       case Opcode::message: return take_message(record);
@@ -98,33 +77,58 @@ class RosBag {
   }
 
   void take_chunk(std::string_view record, std::uint64_t offset) {
-    RecordReader reader(record);
-    for (int i = 0; i < 2; ++i) (void)reader.number<std::uint64_t>();
-    const auto size = reader.number<std::uint64_t>();
-    (void)reader.number<std::uint32_t>();
-    const std::string_view compression = reader.text().substr(0, kLongestName);
-    const auto length = reader.number<std::uint64_t>();
+    McapFields reader(record);
+    for (int i = 0; i < 2; ++i) (void)reader.integer<std::uint64_t>();
+    const auto size = reader.integer<std::uint64_t>();
+    const auto crc = reader.integer<std::uint32_t>();
+    const std::string_view compression = reader.string().substr(0, kLongestName);
+    const auto length = reader.integer<std::uint64_t>();
     const std::string_view inside = reader.rest().substr(0, length);
-    if (compression.empty()) return read_records(inside, offset + (record.size() - reader.rest().size()), false);
-    const auto whole = decompressed_chunk(compression, inside, size);
-    if (!whole) return sink_.left(fmt::format("chunk (compressed with {}, and damaged)", compression));
-    read_records(*whole, offset, false);
+    const bool is_plain = compression.empty();
+    const auto whole = is_plain ? std::nullopt : decompressed_chunk(compression, inside);
+    const std::string_view bytes = whole ? *whole : inside;
+    const bool has_come_out = is_plain || (whole && bytes.size() == size);
+    if (has_come_out && (crc == 0 || record::crc32(bytes) == crc))
+      return read_records(bytes, is_plain ? offset + (record.size() - reader.rest().size()) : offset, false);
+    constexpr int kMostNamed = 10;
+    const std::string_view reason = has_come_out ? "its sum is wrong" : "cannot be decompressed";
+    const std::string form = is_plain ? "not compressed" : fmt::format("compressed with {}", compression);
+    if (++bad_chunks_ <= kMostNamed)
+      findings_.remarks.push_back(
+          fmt::format("byte {}: chunk of {} bytes left ({}, {})", offset - kRecordHead, size, form, reason));
+    sink_.left(fmt::format("chunk ({}, {})", form, reason));
+  }
+
+  /// Types and channels stand in the summary too: a damaged chunk does not take those of others with it.
+  void read_summary() {
+    constexpr std::size_t kEnd = kRecordHead + record::kFooterLength + kMcapMagic.size();
+    if (std::exchange(has_read_summary_, true) || file_.size() < kEnd || !file_.ends_with(kMcapMagic)) return;
+    const std::size_t footer = file_.size() - kEnd;
+    std::size_t at = little_endian_at<std::uint64_t>(file_, footer + kRecordHead);
+    while (at > 0 && at < footer && footer - at > kRecordHead) {
+      const std::uint64_t length = little_endian_at<std::uint64_t>(file_, at + 1);
+      if (length > footer - at - kRecordHead) return;
+      const auto opcode = static_cast<Opcode>(file_[at]);
+      if (opcode == Opcode::schema || opcode == Opcode::channel)
+        take(opcode, file_.substr(at + kRecordHead, length), at + kRecordHead);
+      at += kRecordHead + length;
+    }
   }
 
   void take_schema(std::string_view record) {
-    RecordReader reader(record);
-    const auto id = reader.number<std::uint16_t>();
-    schemas_[id] = reader.text().substr(0, kLongestName);
+    McapFields reader(record);
+    const auto id = reader.integer<std::uint16_t>();
+    schemas_[id] = reader.string().substr(0, kLongestName);
   }
 
   void take_channel(std::string_view record) {
-    RecordReader reader(record);
-    const auto id = reader.number<std::uint16_t>();
-    const auto schema = schemas_.find(reader.number<std::uint16_t>());
+    McapFields reader(record);
+    const auto id = reader.integer<std::uint16_t>();
+    const auto schema = schemas_.find(reader.integer<std::uint16_t>());
     if (channels_.count(id) > 0) return;
     BagChannel channel;
-    channel.topic.name = reader.text().substr(0, kLongestName);
-    const std::string_view encoding = reader.text();
+    channel.topic.name = reader.string().substr(0, kLongestName);
+    const std::string_view encoding = reader.string();
     const std::string type = schema == schemas_.end() ? "no type" : schema->second;
     channel.type = encoding == "cdr" ? ros::message_type(type) : nullptr;
     channel.left_as = fmt::format("{} ({}{})", channel.topic.name, type, encoding == "cdr" ? "" : ", not in CDR");
@@ -134,11 +138,13 @@ class RosBag {
   }
 
   void take_message(std::string_view record) {
-    RecordReader reader(record);
-    const auto channel = channels_.find(reader.number<std::uint16_t>());
-    (void)reader.number<std::uint32_t>();
-    const auto log_time_ns = reader.number<std::uint64_t>();
-    (void)reader.number<std::uint64_t>();
+    McapFields reader(record);
+    const auto id = reader.integer<std::uint16_t>();
+    if (!channels_.contains(id)) read_summary();
+    const auto channel = channels_.find(id);
+    (void)reader.integer<std::uint32_t>();
+    const auto log_time_ns = reader.integer<std::uint64_t>();
+    (void)reader.integer<std::uint64_t>();
     if (channel == channels_.end()) return sink_.left("message without a channel");
     const BagChannel& of = channel->second;
     constexpr std::uint64_t kLast_ns = 9'000'000'000'000'000'000;
@@ -180,6 +186,8 @@ class RosBag {
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, BagChannel> channels_;
   std::map<PortKind, int> instances_;
+  int bad_chunks_ = 0;
+  bool has_read_summary_ = false;
   bool ended_ = false;
 };
 
@@ -188,8 +196,8 @@ class RosBag {
 bool is_ros_bag(std::string_view head) {
   if (!head.starts_with(kMcapMagic)) return false;
   const std::size_t profile = kMcapMagic.size() + kRecordHead;
-  RecordReader reader(head.substr(std::min(profile, head.size())));
-  return reader.text() != record::kProfile;
+  McapFields reader(head.substr(std::min(profile, head.size())));
+  return reader.string() != record::kProfile;
 }
 
 ImportFindings read_ros_bag(std::string_view file, ImportSink& sink, MotorChannels& channels) {

@@ -27,6 +27,7 @@ class McapFields {
     return text;
   }
   [[nodiscard]] bool complete() const { return complete_; }
+  [[nodiscard]] std::string_view rest() const { return rest_; }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
  private:

@@ -7,8 +7,11 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
+#include "record/log/checksum.h"
 #include "record/log/mcap_format.h"
 #include "record/recording.h"
 #include "tests/analysis/import/channel_map.h"
@@ -55,7 +58,11 @@ class Cdr {
 std::string compressed(const std::string& bytes, const std::string& compression) {
   std::string out(2 * bytes.size() + 1024, '\0');
   if (compression == "lz4") {
-    out.resize(LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), nullptr));
+    // As some writers do: blocks that refer to those before, and sums.
+    LZ4F_preferences_t linked{};
+    linked.frameInfo.blockMode = LZ4F_blockLinked;
+    linked.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
+    out.resize(LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), &linked));
   } else if (compression == "zstd") {
     out.resize(ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 3));
   } else {
@@ -96,24 +103,30 @@ class BagWriter {
     to += cdr;
   }
   void chunk(const std::string& records, const std::string& compression) {
-    RecordScope record(out, static_cast<Opcode>(0x06));
+    chunk(records.size(), 0, compression, compressed(records, compression));
+  }
+  void chunk(std::uint64_t size, std::uint32_t sum, const std::string& compression, const std::string& bytes) {
+    RecordScope record(out, Opcode::chunk);
     append_le(out, kLogged_ns);
     append_le(out, kLogged_ns);
-    append_le(out, std::uint64_t{records.size()});
-    append_le(out, std::uint32_t{0});
+    append_le(out, size);
+    append_le(out, sum);
     append_mcap_string(out, compression);
-    const std::string bytes = compressed(records, compression);
     append_le(out, std::uint64_t{bytes.size()});
     out += bytes;
   }
-  std::string finished() {
+  /// `summary`: records of types and channels.
+  std::string finished(const std::string& summary = "") {
     {
       RecordScope record(out, Opcode::data_end);
       append_le(out, std::uint32_t{0});
     }
+    const std::uint64_t start = summary.empty() ? 0 : out.size();
+    out += summary;
     {
       RecordScope record(out, Opcode::footer);
-      out.append(record::kFooterLength, '\0');
+      append_le(out, start);
+      out.append(record::kFooterLength - sizeof start, '\0');
     }
     return out + std::string(record::kMcapMagic);
   }
@@ -227,7 +240,102 @@ TEST(RosBag, CompressedChunksAreRead) {
   RecordingSink sink;
   (void)read_ros_bag(small_bag("zip"), sink);
   EXPECT_TRUE(sink.samples.empty());
-  EXPECT_EQ(sink.left_counts["chunk (compressed with zip, and damaged)"], 1);
+  EXPECT_EQ(sink.left_counts["chunk (compressed with zip, cannot be decompressed)"], 1);
+}
+
+/// Two chunks with an Imu each; the first is what the test makes of it. Types and channels stand in it alone.
+struct TwoChunks {
+  TwoChunks() {
+    bag.topic(definitions, 1, "/imu", "sensor_msgs/msg/Imu");
+    BagWriter::message(message, 1, imu_message());
+    head = bag.out.size();
+  }
+  /// How many messages are read, and the remarks.
+  std::pair<std::size_t, std::vector<std::string>> read() {
+    bag.chunk(message, "zstd");
+    RecordingSink sink;
+    const auto findings = read_ros_bag(bag.finished(definitions), sink);
+    EXPECT_FALSE(findings.cut_at);
+    return {sink.of_port("imu").size(), findings.remarks};
+  }
+  BagWriter bag;
+  std::string definitions, message;
+  std::size_t head = 0;
+};
+
+TEST(RosBag, SeveralFramesAreOneChunk) {
+  for (const std::string compression : {"lz4", "zstd"}) {
+    TwoChunks chunks;
+    // More than one block of 64 KiB.
+    std::string messages;
+    for (int i = 0; i < 400; ++i) messages += chunks.message;
+    const std::string records = chunks.definitions + messages;
+    const std::string frames = compressed(chunks.definitions, compression) + compressed(messages, compression);
+    chunks.bag.chunk(records.size(), record::crc32(records), compression, frames);
+    EXPECT_EQ(chunks.read(), std::pair(std::size_t{401}, std::vector<std::string>{})) << compression;
+  }
+}
+
+TEST(RosBag, ADamagedChunkIsNamedAndCostsItselfOnly) {
+  for (const std::string compression : {"", "lz4", "zstd"}) {
+    const std::string form = compression.empty() ? "not compressed" : "compressed with " + compression;
+    const auto expect_named = [&](TwoChunks& chunks, std::uint64_t size, const std::string& reason) {
+      const auto [messages, remarks] = chunks.read();
+      EXPECT_EQ(messages, 1U) << form;
+      ASSERT_EQ(remarks.size(), 1U) << form;
+      EXPECT_EQ(remarks[0], "byte " + std::to_string(chunks.head) + ": chunk of " + std::to_string(size) +
+                                " bytes left (" + form + ", " + reason + ")");
+    };
+    TwoChunks wrong_sum;
+    const std::string records = wrong_sum.definitions + wrong_sum.message;
+    const std::string bytes = compressed(records, compression);
+    wrong_sum.bag.chunk(records.size(), record::crc32(records) + 1, compression, bytes);
+    expect_named(wrong_sum, records.size(), "its sum is wrong");
+    if (compression.empty()) continue;
+    TwoChunks cut;
+    cut.bag.chunk(records.size(), 0, compression, bytes.substr(0, bytes.size() - 5));
+    expect_named(cut, records.size(), "cannot be decompressed");
+    // A size that nothing has: an answer, and no memory.
+    TwoChunks vast;
+    vast.bag.chunk(std::uint64_t{1} << 40, 0, compression, bytes);
+    expect_named(vast, std::uint64_t{1} << 40, "cannot be decompressed");
+  }
+}
+
+TEST(RosBag, ABagOfDamagedChunksSaysWhich) {
+  TwoChunks chunks;
+  chunks.bag.chunk(100, 0, "zstd", "nonsense");
+  try {
+    (void)testing::expect_counts_agree("ros2", chunks.bag.finished());
+    FAIL();
+  } catch (const record::BadRecording& error) {
+    EXPECT_NE(std::string(error.what()).find("; byte 40: chunk of 100 bytes left"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(RosBag, AChunkThatSwellsBeyondTheLimitIsLeft) {
+  TwoChunks chunks;
+  std::string frames;
+  const std::string frame = compressed(std::string(std::size_t{1} << 24, '\0'), "zstd");
+  for (int i = 0; i < 17; ++i) frames += frame;
+  chunks.bag.chunk(std::uint64_t{17} << 24, 0, "zstd", frames);
+  EXPECT_EQ(chunks.read().first, 1U);
+}
+
+TEST(RosBag, BagsOfOthersGiveAllTheirMessages) {
+  for (const std::string compression : {"none", "zstd", "lz4"}) {
+    std::ifstream file(NAVCAL_SHARED_DIR "/data/wires/bag_" + compression + ".mcap", std::ios::binary);
+    if (!file) GTEST_SKIP() << "no bags of others here";
+    RecordingSink sink;
+    const auto findings = read_ros_bag(std::string{std::istreambuf_iterator<char>(file), {}}, sink);
+    EXPECT_FALSE(findings.cut_at);
+    EXPECT_EQ(sink.of_port("imu").size(), 400U) << compression;
+    EXPECT_EQ(sink.of_port("compass").size(), 80U) << compression;
+    EXPECT_TRUE(sink.left_counts.empty()) << compression;
+    EXPECT_EQ(sink.of_port("imu").at(7).time_ns - *sink.of_port("imu").at(7).utc_ns, 3'000'000);
+    expect_vector(sink.of_port("imu").at(7).line["specific_force_m_s2"], 0, 0, -9.80665);
+  }
 }
 
 TEST(RosBag, EverySampleIsInTheLogOrCountedAsLeft) {
