@@ -196,4 +196,12 @@ void LiveSource::take_health(std::string_view message) {
   if (dropped.is_number_unsigned()) counters_.missed = dropped.get<std::uint64_t>();
 }
 
+std::optional<LiveSource::Settings> status_socket(std::string_view text) {
+  const auto colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  std::string_view host = text.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  return LiveSource::Settings{host.empty() ? "127.0.0.1" : std::string(host), std::string(text.substr(colon + 1))};
+}
+
 }  // namespace navcal::web

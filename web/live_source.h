@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "web/hub.h"
 
@@ -57,5 +59,8 @@ class LiveSource : public std::enable_shared_from_this<LiveSource> {
   bool silent_ = false;  ///< the limit of silence ended the connection
   bool stopped_ = false;
 };
+
+/// "localhost:2947", "[::1]:2947"; nullopt without a port.
+[[nodiscard]] std::optional<LiveSource::Settings> status_socket(std::string_view text);
 
 }  // namespace navcal::web

@@ -50,7 +50,9 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--port", options.port, "TCP port to listen at")->capture_default_str();
   app.add_option("--address", options.address, "IP address to listen at; 0.0.0.0 or :: serves the whole network")
       ->capture_default_str();
-  app.add_option("--status", options.status, "status socket of navcald, HOST:PORT")->capture_default_str();
+  app.add_option("--status", options.status, "status socket of navcald, HOST:PORT")
+      ->capture_default_str()
+      ->check([](const std::string& text) { return web::status_socket(text) ? "" : "wants HOST:PORT"; });
   app.add_option("--control", options.control, "control socket of navcald")->capture_default_str();
   app.add_option("--token-file", options.token_file,
                  "file with the token that changes of the vehicle need; without it everything is read-only");
@@ -71,19 +73,11 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   navcal::share::add_manual(app);
   try {
     app.parse(argc, argv);
-    if (options.status.rfind(':') == std::string::npos) throw CLI::ValidationError("--status", "wants HOST:PORT");
     web::check_outlet_options(options.outlets, options.status);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kStopped : kUsage;
   }
   return std::nullopt;
-}
-
-web::LiveSource::Settings status_socket(const std::string& text) {
-  const auto colon = text.rfind(':');
-  std::string host = text.substr(0, colon);
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  return {host.empty() ? "127.0.0.1" : host, text.substr(colon + 1)};
 }
 
 void run(const Options& options) {
@@ -98,7 +92,7 @@ void run(const Options& options) {
   asio::signal_set signals(context);
   for (const int signal : navcal::base::ending_signals()) signals.add(signal);
   const auto source =
-      std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
+      std::make_shared<web::LiveSource>(context.get_executor(), *web::status_socket(options.status), hub);
   web::Outlets outlets(context.get_executor(), options.outlets, hub, site);
   site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
   web::LogHistory history(context.get_executor(), options.control);

@@ -191,5 +191,16 @@ TEST_F(LiveSourceTest, APeerThatSendsNoLinesIsLeft) {
   sender.join();
 }
 
+TEST(StatusSocket, HasAHostAndAPort) {
+  const auto is = [](std::string_view text, const std::string& host, const std::string& port) {
+    const auto settings = status_socket(text);
+    return settings && settings->host == host && settings->port == port;
+  };
+  EXPECT_TRUE(is("auv:2947", "auv", "2947"));
+  EXPECT_TRUE(is(":2948", "127.0.0.1", "2948"));
+  EXPECT_TRUE(is("[::1]:2947", "::1", "2947"));
+  EXPECT_FALSE(status_socket("localhost"));
+}
+
 }  // namespace
 }  // namespace navcal::web
