@@ -102,7 +102,8 @@ const MessageType* written_type(std::string_view name) {
       type_of<Odometry>("RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0"),
       type_of<TwistWithCovarianceStamped>(
           "RIHS01_77b67434531e6529b7a0091357b186b6ebdb17fd9ffd3e0c7ce9d3fb11a44563"),
-      type_of<DiagnosticArray>("RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e")};
+      type_of<DiagnosticArray>("RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"),
+      type_of<TransformMessage>("RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087")};
   const auto found =
       std::find_if(kTypes.begin(), kTypes.end(), [&](const MessageType& type) { return type.name == name; });
   return found == kTypes.end() ? nullptr : &*found;

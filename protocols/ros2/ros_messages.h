@@ -206,6 +206,24 @@ struct DiagnosticArray {
   NAVCAL_ROS_MEMBERS("diagnostic_msgs/DiagnosticArray", header, status)
 };
 
+struct Transform {
+  Vector3 translation;
+  Quaternion rotation;
+  NAVCAL_ROS_MEMBERS("geometry_msgs/Transform", translation, rotation)
+};
+
+struct TransformStamped {
+  Header header;
+  std::string child_frame_id;
+  Transform transform;
+  NAVCAL_ROS_MEMBERS("geometry_msgs/TransformStamped", header, child_frame_id, transform)
+};
+
+struct TransformMessage {
+  std::vector<TransformStamped> transforms;
+  NAVCAL_ROS_MEMBERS("tf2_msgs/TFMessage", transforms)
+};
+
 /// A number alone, and a list of numbers: std_msgs Float32, Float64, Float32MultiArray, Float64MultiArray.
 template <class T>
 struct Number {

@@ -24,7 +24,8 @@ constexpr std::array kTypes{"sensor_msgs/msg/Imu",
                             "sensor_msgs/msg/Temperature",
                             "nav_msgs/msg/Odometry",
                             "geometry_msgs/msg/TwistWithCovarianceStamped",
-                            "diagnostic_msgs/msg/DiagnosticArray"};
+                            "diagnostic_msgs/msg/DiagnosticArray",
+                            "tf2_msgs/msg/TFMessage"};
 
 /// The description of a type that is hashed (REP 2011), made of the lines of its definition.
 class TypeDescription {
