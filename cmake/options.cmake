@@ -6,6 +6,7 @@ option(NAVCAL_TESTS "build the tests" ON)
 # tools/test runs each kind in the build where it finds most (docs/building.md).
 set(NAVCAL_TEST_KINDS functions daemon programs CACHE STRING "kinds of tests to build: functions, daemon, programs, nightly")
 option(NAVCAL_BENCH "build the benchmarks" OFF)
+option(NAVCAL_ROS2 "build navcal-ros2, where Cyclone DDS is installed (package cyclonedds-dev)" ON)
 option(NAVCAL_FUZZ "build the libFuzzer targets (needs clang)" OFF)
 option(NAVCAL_PRECOMPILE "precompile the large headers of libraries; off in the fuzz build, where a missing include shows" ON)
 option(NAVCAL_UNITY "compile the sources of a room in batches; off in the presets debug and fuzz, where a missing include shows" ON)

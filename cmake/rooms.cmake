@@ -3,7 +3,7 @@
 # tests/rooms compares it with every #include, and the table of ARCHITECTURE.md is compared with it. In the order in which
 # the rooms may use each other; each line names all rooms that are included directly. A folder within a room can be a room of
 # its own (validation/reference); the room around it then does not contain it.
-set(NAVCAL_ROOMS base protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify diagnosis runs analysis validation/reference validation report fleet api share web daemon cli)
+set(NAVCAL_ROOMS base protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify diagnosis runs analysis validation/reference validation report fleet api share web ros2 daemon cli)
 set(NAVCAL_MAY_INCLUDE_base)
 set(NAVCAL_MAY_INCLUDE_protocols)
 set(NAVCAL_MAY_INCLUDE_config base protocols)
@@ -30,6 +30,7 @@ set(NAVCAL_MAY_INCLUDE_fleet base protocols config record gap analysis report)
 set(NAVCAL_MAY_INCLUDE_api protocols config devices instruments pipeline record sim gap analysis report)
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_web base record ports share)
+set(NAVCAL_MAY_INCLUDE_ros2 base protocols record ports analysis share web)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports link share)
 set(NAVCAL_MAY_INCLUDE_cli base protocols config devices record ports link autopilot sim gap identify diagnosis runs analysis validation report fleet share web)
 
