@@ -15,16 +15,16 @@
 namespace navcal::diagnosis {
 namespace {
 
-/// Columns of a set with the prior of their sizes at some strength, in order.
+/// Columns of a set with the prior of their sizes at some strength, in order, and the bounds of the vehicle's.
 struct Members {
   std::vector<Eigen::Index> columns;
-  Eigen::VectorXd mean, std;
-  std::vector<bool> one_sided;
+  Eigen::VectorXd mean, std, low, high;
 };
 
 Members members_of(const CauseSet& set, const CauseLibrary& library, double strength) {
   Members members;
-  std::vector<double> mean, std;
+  std::vector<double> mean, std, low, high;
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   for (const std::size_t cause : set) {
     for (const CauseParameter& parameter : library.causes[cause].parameters) {
       const double typical = parameter.typical * parameter.per_unit;
@@ -32,11 +32,13 @@ Members members_of(const CauseSet& set, const CauseLibrary& library, double stre
       members.columns.push_back(parameter.column);
       mean.push_back(is_switch ? typical : 0);
       std.push_back((is_switch ? kSwitchScatter : strength) * typical);
-      members.one_sided.push_back(parameter.low == 0 && !is_switch);
+      low.push_back(library.causes[cause].is_instrument ? -kUnbounded : parameter.low * parameter.per_unit);
+      high.push_back(library.causes[cause].is_instrument ? kUnbounded : parameter.high * parameter.per_unit);
     }
   }
-  members.mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), std::ssize(mean));
-  members.std = Eigen::Map<const Eigen::VectorXd>(std.data(), std::ssize(std));
+  for (const auto& [from, to] :
+       {std::pair{&mean, &members.mean}, {&std, &members.std}, {&low, &members.low}, {&high, &members.high}})
+    *to = Eigen::Map<const Eigen::VectorXd>(from->data(), std::ssize(*from));
   return members;
 }
 
@@ -47,12 +49,16 @@ double log_mean_exp(const std::vector<double>& values) {
   return most + std::log(sum / static_cast<double>(values.size()));
 }
 
-/// log(2 Phi(z)): what the evidence gains when a prior of both signs becomes one of positive values (a lag, a dead
-/// band).
-double log_share_above_zero(double z) {
-  if (z > -8) return std::log(std::erfc(-z / std::numbers::sqrt2));
+/// log Phi(z)
+double log_share_below(double z) {
+  if (z > -8) return std::log(std::erfc(-z / std::numbers::sqrt2) / 2);
   // Mills' ratio, where erfc loses its digits.
-  return -0.5 * z * z - std::log(-z * std::sqrt(std::numbers::pi / 2));
+  return -0.5 * z * z - std::log(-z * std::sqrt(2 * std::numbers::pi));
+}
+
+/// Logarithm of the probability that a normal deviate lies within bounds of which at most one is near.
+double log_share_within(double low, double high, double mean, double std) {
+  return log_share_below((high - mean) / std) + log_share_below((mean - low) / std);
 }
 
 double log_prior(std::size_t size, std::size_t causes) {
@@ -111,6 +117,12 @@ class Scores {
   std::set<CauseSet> own_;
 };
 
+/// Log probability of a change of its causes before the recording, but for a constant.
+double log_prior_of(const Eigen::VectorXd& change, const CauseSet& set, const CauseLibrary& library) {
+  const Members members = members_of(set, library, kMemberStrengths.back());
+  return -(change(members.columns) - members.mean).cwiseQuotient(members.std).squaredNorm() / 2;
+}
+
 /// Of the departures where a recording was linearised, but for a constant and the prior of the change.
 double log_posterior(const RecordingFit& fit, const Eigen::VectorXd& at, const JointPrior& prior,
                      const Eigen::VectorXd& change) {
@@ -124,7 +136,14 @@ SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set, double streng
   const Members members = members_of(set, library_, strength);
   const Likelihood here = changes_.of(members.columns).about(members.mean);
   const Eigen::MatrixXd covariance = covariance_of(here.information, members.std);
-  return {members.columns, members.mean + covariance * here.score, covariance};
+  Posterior all{members.columns, members.mean + covariance * here.score, covariance};
+  for (Eigen::Index i = 0; i < all.mean.size(); ++i) {
+    // The most probable one on the bound, the others given that.
+    const double inside = std::clamp(all.mean[i], members.low[i], members.high[i]);
+    if (inside != all.mean[i]) all.mean += (inside - all.mean[i]) / covariance(i, i) * covariance.col(i);
+  }
+  all.mean = all.mean.cwiseMax(members.low).cwiseMin(members.high);
+  return all;
 }
 
 SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set) const {
@@ -141,11 +160,13 @@ double SetEvidence::gain(const CauseSet& set, double strength) const {
   const Members members = members_of(set, library_, strength);
   const Likelihood here = changes_.of(members.columns).about(members.mean);
   double gain = here.blurred(members.std.asDiagonal()).value - changes_.value;
-  if (std::none_of(members.one_sided.begin(), members.one_sided.end(), [](bool is) { return is; })) return gain;
-  const Posterior wide = posterior(set, strength);
-  for (Eigen::Index i = 0; i < wide.mean.size(); ++i) {
-    if (members.one_sided[static_cast<std::size_t>(i)])
-      gain += log_share_above_zero(wide.mean[i] / std::max(wide.std(i), 1e-150));
+  const Eigen::MatrixXd covariance = covariance_of(here.information, members.std);
+  const Eigen::VectorXd mean = members.mean + covariance * here.score;
+  for (Eigen::Index i = 0; i < mean.size(); ++i) {
+    // What the evidence gains when the prior ends at the bounds.
+    const double low = members.low[i], high = members.high[i], std = std::max(std::sqrt(covariance(i, i)), 1e-150);
+    gain +=
+        log_share_within(low, high, mean[i], std) - log_share_within(low, high, members.mean[i], members.std[i]);
   }
   return gain;
 }
@@ -158,7 +179,8 @@ double SetEvidence::gain(const CauseSet& set) const {
 }
 
 std::optional<RecordingFit> settled(const FittedRecording& recording, const JointPrior& prior,
-                                    const Eigen::VectorXd& from, const ChangeOf& change_of) {
+                                    const Eigen::VectorXd& from, const ChangeOf& change_of,
+                                    const LogPriorOf& log_prior_of) {
   std::optional<RecordingFit> best;
   Eigen::VectorXd at = from, best_at = at, change = Eigen::VectorXd::Zero(from.size()), best_change = change;
   double most = 0;
@@ -171,8 +193,10 @@ std::optional<RecordingFit> settled(const FittedRecording& recording, const Join
       change += cut_off;
       at += cut_off;
     }
-    const double value = fit ? log_posterior(*fit, at, prior, change) : -std::numeric_limits<double>::infinity();
+    const double value = fit ? log_posterior(*fit, at, prior, change) + log_prior_of(change)
+                             : -std::numeric_limits<double>::infinity();
     if (best && (!fit || value < most)) {
+      if (fit && value > most - kSettledWithin_nats) break;
       // Too far for the linearisation.
       at = (at + best_at) / 2;
       change = (change + best_change) / 2;
@@ -226,7 +250,8 @@ CauseSearchResult search_causes(const FittedRecording& recording, const JointPri
       return SetEvidence(changes, library).posterior(set).among(library.columns());
     };
     const Eigen::VectorXd begin = estimated(prior.of_changes(here->linear));
-    auto there = settled(recording, prior, prior.posterior_mean(here->linear.about(begin)) + begin, estimated);
+    auto there = settled(recording, prior, prior.posterior_mean(here->linear.about(begin)) + begin, estimated,
+                         [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library); });
     if (!there) {
       // With these effects the vehicle could not have moved as it did.
       scores.set(set, none - kImpossible_nats, true);
@@ -256,6 +281,17 @@ CauseSearchResult search_causes(const FittedRecording& recording, const JointPri
       continue;
     }
     fit_again(CauseSet(next->causes));
+  }
+  // A dead, a reversed and a weak actuator lie far apart in one direction, so each is fitted where one leads.
+  const CauseSet leader = scores.ranked().front().causes;
+  for (const std::size_t member : leader) {
+    for (std::size_t other = 0; other < library.causes.size(); ++other) {
+      CauseSet in_place = leader;
+      std::erase(in_place, member);
+      in_place = with(std::move(in_place), other);
+      if (are_one(library.causes[member], library.causes[other]) && !scores.is_fitted(in_place))
+        fit_again(in_place);
+    }
   }
   result.sets = scores.ranked();
   // What only leads far from where it was linearised does not lead.

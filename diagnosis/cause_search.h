@@ -61,10 +61,13 @@ class SetEvidence {
 
 /// Change of the nominal vehicle by the likelihood of changes.
 using ChangeOf = std::function<Eigen::VectorXd(const Likelihood&)>;
+/// Log probability of a change before the recording, but for a constant.
+using LogPriorOf = std::function<double(const Eigen::VectorXd&)>;
 /// A recording linearised again and again where it says that its vehicle is, until its evidence settles. nullopt:
 /// a vehicle could not have moved so. Only recordings that have settled alike compare.
-[[nodiscard]] std::optional<RecordingFit> settled(const FittedRecording& recording, const JointPrior& prior,
-                                                  const Eigen::VectorXd& from, const ChangeOf& change_of);
+[[nodiscard]] std::optional<RecordingFit> settled(
+    const FittedRecording& recording, const JointPrior& prior, const Eigen::VectorXd& from,
+    const ChangeOf& change_of, const LogPriorOf& log_prior_of = [](const auto&) { return 0.0; });
 
 /// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation of the
 /// nominal vehicle; the leaders are fitted again at their own estimate, because large effects are not linear, and

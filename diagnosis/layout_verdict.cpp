@@ -236,16 +236,18 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     }
   }
   if (!has_floor) return say_unconfirmed(answer);
-  if (!answer.effects.empty() || !louder.empty() || is_loud) kind = gap::UnknownKind::outside;
-  if (answer.effects.empty()) {
+  const bool is_left_over = !louder.empty() || is_loud, is_certain = !answer.effects.empty();
+  const std::string explained_by = is_certain ? names_of(answer.effects) : "the best set of effects";
+  if (!is_certain && (!is_left_over || kind == gap::UnknownKind::outside)) {
     reason = not_named.front();
   } else if (!louder.empty()) {
-    reason = fmt::format("{} leaves {} louder than nominal", names_of(answer.effects), louder.front().channel);
+    reason = fmt::format("{} leaves {} louder than nominal", explained_by, louder.front().channel);
   } else if (is_loud) {
     reason =
         fmt::format("with {} the recording departs by {:.2f} times its noise power, nominal ones by {:.2f} times",
-                    names_of(answer.effects), after.mean_square, floor.mean);
+                    explained_by, after.mean_square, floor.mean);
   }
+  if (is_certain || is_left_over) kind = gap::UnknownKind::outside;
   if (!reason.empty()) {
     answer.effects.clear();
     if (kind == gap::UnknownKind::cannot_say) answer.alternatives = alternatives_of(evidence);

@@ -36,12 +36,14 @@ inline constexpr double kSwitchScatter = 0.05;
 /// Leading single causes that are fitted again at their own estimate, and sets that are because they lead without.
 inline constexpr std::size_t kRefitted = 4, kReconsidered = 4;
 /// A recording has settled where its evidence changes by less, and is given up after so many passes.
-inline constexpr double kSettledWithin_nats = 0.5;
-inline constexpr int kMostSettlings = 5;
-/// A figure of a recording (a channel's noise power) exceeds that of nominal recordings by chance up to so many
-/// standard deviations of theirs, and by tolerances that they do not show up to this factor; the power of all
-/// channels together, which has many more readings, up to the smaller one.
-inline constexpr double kNominalScatter_sigma = 5, kNominalFactor = 2, kNominalPowerFactor = 1.12;
+inline constexpr double kSettledWithin_nats = 1;
+inline constexpr int kMostSettlings = 8;
+/// A figure of a recording (a channel's noise power) exceeds that of nominal recordings with this probability by
+/// chance, by the scatter of theirs (Student's t; of one of them only, by so many of its presumed standard
+/// deviations), and by tolerances that they do not show up to this factor; the power of all channels together,
+/// which has many more readings, up to the smaller one.
+inline constexpr double kNominalChance = 0.02, kNominalScatter_sigma = 5, kNominalFactor = 2,
+                        kNominalPowerFactor = 1.12;
 /// An innovation counts at most so much in the power of its channel: single wild readings are no louder channel.
 inline constexpr double kWild_sigma = 3;
 /// Length of the blocks of time that a closure's interval is drawn from, s: longer than the filter's memory of

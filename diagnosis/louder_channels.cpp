@@ -32,7 +32,8 @@ std::vector<gap::WhereEntry> louder_channels(const RecordingPower& of, std::span
     // A mean square of few readings scatters by itself.
     if (of.readings_of_channel[c] > 0)
       floor.std = std::hypot(floor.std, floor.mean * std::sqrt(2 / of.readings_of_channel[c]));
-    if (power <= floor.limit(kNominalFactor)) continue;
+    // One of several tells nothing of the scatter among them.
+    if ((floor.count == 1 && nominal.size() > 1) || power <= floor.limit(kNominalFactor)) continue;
     const double z = (power - floor.mean) / std::max(floor.std, 0.02 * floor.mean);
     louder.push_back({std::string(identify::kChannelDescriptions[c].name), "whole recording", power, floor.mean,
                       std::string(kUnit), std::erfc(std::min(z, 30.0) / std::numbers::sqrt2)});

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -17,7 +18,15 @@ namespace navcal::diagnosis {
 using identify::kNuisances;
 using identify::RecordedMotion;
 
-double Floor::limit(double factor) const { return std::max(mean * factor, mean + kNominalScatter_sigma * std); }
+double Floor::limit(double factor) const {
+  double sigma = kNominalScatter_sigma;
+  if (count > 1) {
+    const boost::math::students_t_distribution<> student(static_cast<double>(count - 1));
+    sigma = boost::math::quantile(boost::math::complement(student, kNominalChance)) *
+            std::sqrt(1 + 1 / static_cast<double>(count));
+  }
+  return std::max(mean * factor, mean + sigma * std);
+}
 
 Floor floor_of(std::span<const double> of_recordings) {
   if (of_recordings.empty()) return {};
@@ -25,7 +34,7 @@ Floor floor_of(std::span<const double> of_recordings) {
   const double mean = std::accumulate(of_recordings.begin(), of_recordings.end(), 0.0) / n;
   double square = 0;
   for (const double one : of_recordings) square += (one - mean) * (one - mean);
-  return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean};
+  return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean, of_recordings.size()};
 }
 
 namespace {
@@ -43,13 +52,28 @@ std::vector<Alike> alike_in(const CauseLibrary& library) {
   std::map<std::string, Alike> by_name;
   for (const Cause& cause : library.causes) {
     for (const CauseParameter& parameter : cause.parameters) {
-      if (parameter.is_switch()) continue;
+      if (parameter.is_one_sided()) continue;
       Alike& alike = by_name[cause.name];
       alike.columns.push_back(parameter.column);
       alike.typical.push_back(parameter.typical * parameter.per_unit);
     }
   }
   std::vector<Alike> all;
+  for (auto& [name, alike] : by_name) all.push_back(std::move(alike));
+  return all;
+}
+
+/// With the numbers of the layout, in their prior standard deviations. What the layout leaves out moves them from
+/// recording to recording: a lag fits one manoeuvre, another the next.
+std::vector<Alike> alike_between_recordings(const CauseLibrary& library) {
+  std::map<std::string, Alike> by_name;
+  for (std::size_t i = 0; i < library.layout_numbers; ++i) {
+    std::string name = library.parameters[i].name;
+    std::erase_if(name, [](char c) { return c >= '0' && c <= '9'; });
+    by_name[name].columns.push_back(static_cast<Eigen::Index>(i));
+    by_name[name].typical.push_back(library.parameters[i].prior_std);
+  }
+  std::vector<Alike> all = alike_in(library);
   for (auto& [name, alike] : by_name) all.push_back(std::move(alike));
   return all;
 }
@@ -89,16 +113,16 @@ ColumnScatter scatter_of(const CauseLibrary& library, const identify::Calibratio
   scatter.session.tail<kNuisances>() = nuisance_stds;
   for (const Cause& cause : library.causes) {
     for (const CauseParameter& parameter : cause.parameters)
-      if (parameter.is_switch()) scatter.session[parameter.column] = kAbsent;
+      if (parameter.is_one_sided()) scatter.session[parameter.column] = kAbsent;
   }
-  for (Eigen::VectorXd* const one : {&scatter.vehicle, &scatter.session})
-    set_tolerances(alike_in(library), {}, *one);
+  set_tolerances(alike_in(library), {}, scatter.vehicle);
+  set_tolerances(alike_between_recordings(library), {}, scatter.session);
   return scatter;
 }
 
 ColumnScatter scatter_among(const CauseLibrary& library, std::span<const Likelihood> recordings,
                             ColumnScatter scatter) {
-  const std::vector<Alike> groups = alike_in(library);
+  const auto of_vehicles = alike_in(library), of_recordings = alike_between_recordings(library);
   for (int step = 0; step < kToleranceSteps; ++step) {
     const Likelihood shared = shared_by(recordings, scatter);
     const Eigen::MatrixXd of_vehicle = covariance_of(shared.information, scatter.vehicle);
@@ -111,9 +135,9 @@ ColumnScatter scatter_among(const CauseLibrary& library, std::span<const Likelih
       squares.push_back(of_session.diagonal() + session.cwiseAbs2() +
                         (through * of_vehicle).cwiseProduct(through).rowwise().sum());
     }
-    set_tolerances(groups, squares, scatter.session);
+    set_tolerances(of_recordings, squares, scatter.session);
     const std::array<Eigen::VectorXd, 1> of_one{of_vehicle.diagonal() + vehicle.cwiseAbs2()};
-    set_tolerances(groups, of_one, scatter.vehicle);
+    set_tolerances(of_vehicles, of_one, scatter.vehicle);
   }
   return scatter;
 }

@@ -11,6 +11,7 @@ namespace navcal::diagnosis {
 /// Mean and standard deviation of a figure in nominal recordings.
 struct Floor {
   double mean = 1, std = 0;
+  std::size_t count = 0;  ///< of recordings
 
   /// Above it, a recording is not like the nominal ones. `factor`: for tolerances that they do not show.
   [[nodiscard]] double limit(double factor) const;
