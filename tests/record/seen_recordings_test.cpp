@@ -12,7 +12,7 @@
 namespace navcal::record {
 namespace {
 
-class SeenRecordingsTest : public testing::Test {
+class SeenRecordingsTest : public ::testing::Test {
  protected:
   /// 500 bytes a second from the stream of this seed, in reads of `chunk` bytes; `noise` false: always the same.
   std::filesystem::path made(const std::string& name, unsigned seed, int from_s, int until_s,
