@@ -185,7 +185,8 @@ TEST(Floor, HasRoomForTheScatterAndForTolerancesThatNominalRecordingsDoNotShow) 
   EXPECT_DOUBLE_EQ(floor_of(one).limit(1.5), 6);
   const std::array wide{1.0, 3.0};
   EXPECT_GT(floor_of(wide).limit(1.5), 2 + 5);
-  const std::array two{1.0, 1.2}, six{1.0, 1.2, 1.0, 1.2, 1.0, 1.2};
+  const std::array two{1.0, 1.2};
+  const std::array six{1.0, 1.2, 1.0, 1.2, 1.0, 1.2};
   EXPECT_GT(floor_of(two).limit(1), 3) << "two tell little of the scatter";
   EXPECT_LT(floor_of(six).limit(1), 1.5);
 }

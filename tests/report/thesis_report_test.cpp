@@ -128,11 +128,11 @@ TEST(ThesisReport, DisagreementsOfTheThesisAreTold) {
 }
 
 TEST(ThesisReport, CellsHaveNoNegativeZero) {
-  EXPECT_EQ(shown_cell({-0.00001, {}}, {"", "", 4}), "0.0000");
-  EXPECT_EQ(shown_cell({-0.00006, {}}, {"", "", 4}), "-0.0001");
-  EXPECT_EQ(shown_cell({-0.4, {}}, {"", "", 0}), "0");
-  EXPECT_EQ(shown_cell({std::nullopt, {}}, {"", "", 4}), "-");
-  EXPECT_EQ(shown_cell({std::nullopt, "no"}, {"", "", 4}), "no");
+  EXPECT_EQ(shown_cell(-0.00001, {"", "", 4}), "0.0000");
+  EXPECT_EQ(shown_cell(-0.00006, {"", "", 4}), "-0.0001");
+  EXPECT_EQ(shown_cell(-0.4, {"", "", 0}), "0");
+  EXPECT_EQ(shown_cell(ThesisCell(), {"", "", 4}), "-");
+  EXPECT_EQ(shown_cell(std::string("no"), {"", "", 4}), "no");
 }
 
 }  // namespace
