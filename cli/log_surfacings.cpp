@@ -36,8 +36,8 @@ void show_surfacings(const SurfacingsOptions& options) {
   tell_remarks("navcal log", run.remarks());
   if (!options.page.empty())
     write_result(options.page, report::surfacings_page(run.surfacings(), files, run.settings()));
-  const std::string text = options.json ? report::surfacings_json(run.surfacings(), files)
-                                        : report::surfacings_text(run.surfacings());
+  const std::string text =
+      options.json ? report::surfacings_json(run.surfacings(), files) : report::surfacings_text(run.surfacings());
   std::fputs(text.c_str(), stdout);
 }
 
