@@ -70,17 +70,6 @@ double log_prior(std::size_t size, std::size_t causes) {
   return log_prior;
 }
 
-/// Two causes that move the same thing in the same way: the arm between the centres, the force of one actuator.
-bool are_one(const Cause& a, const Cause& b) {
-  if (a.of != b.of) return false;
-  const auto kind = [](const Cause& cause) {
-    if (cause.name == "gravity_shift" || cause.name == "buoyancy_shift") return 1;
-    return cause.name == "thrust_scale" || cause.name == "actuator_dead" || cause.name == "actuator_reversed" ? 2
-                                                                                                              : 0;
-  };
-  return kind(a) != 0 && kind(a) == kind(b);
-}
-
 /// Whether a cause is none of a set, and none that stands for one of it.
 bool is_new(std::size_t cause, const CauseSet& set, const CauseLibrary& library) {
   return std::none_of(set.begin(), set.end(), [&](std::size_t member) {
@@ -131,6 +120,16 @@ double log_posterior(const RecordingFit& fit, const Eigen::VectorXd& at, const J
 }
 
 }  // namespace
+
+bool are_one(const Cause& a, const Cause& b) {
+  if (a.of != b.of) return false;
+  const auto kind = [](const Cause& cause) {
+    if (cause.name == "gravity_shift" || cause.name == "buoyancy_shift") return 1;
+    return cause.name == "thrust_scale" || cause.name == "actuator_dead" || cause.name == "actuator_reversed" ? 2
+                                                                                                              : 0;
+  };
+  return kind(a) != 0 && kind(a) == kind(b);
+}
 
 SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set, double strength) const {
   const Members members = members_of(set, library_, strength);

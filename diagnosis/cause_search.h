@@ -14,6 +14,9 @@ namespace navcal::diagnosis {
 /// Causes that act together: indices into CauseLibrary::causes, in order.
 using CauseSet = std::vector<std::size_t>;
 
+/// Two causes that move the same thing in the same way: the arm between the centres, the force of one actuator.
+[[nodiscard]] bool are_one(const Cause& a, const Cause& b);
+
 struct ScoredSet {
   CauseSet causes;  ///< empty: no effect
   double log_odds = 0;

@@ -36,6 +36,10 @@ Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
   const auto& sets = evidence.found.sets;
   const CauseSet& best = sets.front().causes;
   std::vector<std::size_t> alike{cause};
+  // A set with a weak actuator in place of a dead one is no set without it.
+  for (std::size_t other = 0; other < evidence.library.causes.size(); ++other)
+    if (other != cause && are_one(evidence.library.causes[cause], evidence.library.causes[other]))
+      alike.push_back(other);
   Member member{cause, {}, 0, std::numeric_limits<double>::infinity()};
   for (const ScoredSet& one : sets) {
     const double behind_nats = sets.front().log_odds - one.log_odds;
@@ -47,7 +51,7 @@ Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
         std::find(differing.begin(), differing.end(), cause) == differing.end())
       continue;
     const std::size_t other = differing.front() == cause ? differing.back() : differing.front();
-    alike.push_back(other);
+    if (std::find(alike.begin(), alike.end(), other) == alike.end()) alike.push_back(other);
     member.confused_with.push_back(
         {evidence.library.causes[other].words(), evidence.library.causes[cause].manoeuvre, behind_nats});
   }

@@ -112,6 +112,22 @@ TEST(LayoutVerdict, WhatAllGoodSetsShareIsNamed) {
   EXPECT_EQ(answer.effects[0].name, "first");
 }
 
+// A dead thruster was ambiguous, because a weak one with a dead band beside it was 7 nats behind.
+TEST(LayoutVerdict, AWeakActuatorInPlaceOfADeadOneIsNoRival) {
+  Searched searched;
+  searched.library.causes[0].name = "actuator_dead";
+  searched.library.causes[1].name = "thrust_scale";
+  searched.library.causes.push_back({.name = "third",
+                                     .of = {},
+                                     .manoeuvre = {},
+                                     .parameters = {{.name = "k", .low = -10, .high = 10, .column = 1}}});
+  searched.bank.chance_nats = {0, 0, 0};
+  searched.found.sets = {{{0}, 40, 0.99}, {{1, 2}, 33, 0.01}, {{}, 0, 0}};
+  EXPECT_EQ(searched.verdict().verdict, gap::Verdict::explained) << searched.verdict().sentence;
+  searched.library.causes[1].name = "thruster_offset";
+  EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::ambiguous) << searched.verdict().sentence;
+}
+
 TEST(LayoutVerdict, ACauseThatNominalRecordingsHaveByChanceIsNotNamed) {
   Searched searched;
   searched.bank.chance_nats[0] = 30;

@@ -96,6 +96,26 @@ TEST(FilteredReplay, LinearisationPredictsTheInnovationsOfOtherValues) {
   EXPECT_DOUBLE_EQ(linear.power, pass->power());
 }
 
+// A dead band of 3 % that no command between it and 6 % told: its slope was zero there, and its estimate lost.
+TEST(FilteredReplay, AnEffectThatCannotBeNegativeHasItsSlopeFromZero) {
+  const FilterExample example(8);
+  Parameter half{"share", {}, 0, 1, 0, 10, {}, {}, {}, 1};
+  half.change = [](config::Layout& layout, double value) {
+    layout.thrusters[0].force_scale *= value > 0 ? 0.5 : 1;
+  };
+  std::vector<Parameter> parameters{half};
+  const FilteredReplay filter(example.of.prior, parameters, example.recording, example.noises);
+  Eigen::VectorXd values = filter.start();
+  values[0] = 2;
+  const auto pass = filter.follow(values);
+  ASSERT_TRUE(pass.has_value());
+  const std::vector<FilterColumn> column{{0}};
+  const FilterLinearised linear = filter.linearise(*pass, column);
+  const Eigen::VectorXd at_zero = filter.replayed(*pass, filter.start());
+  EXPECT_GT(linear.jacobian.norm(), 1);
+  EXPECT_LT((linear.white - 2 * linear.jacobian - at_zero).norm(), 1e-9 * at_zero.norm());
+}
+
 TEST(FilteredReplay, NuisancesOfAbsentInstrumentsDoNotMatter) {
   const FilterExample example(4);
   const FilteredReplay filter = example.filter();
