@@ -132,8 +132,8 @@ TEST(GapText, AnAmbiguousGapShowsEachSet) {
   diagnosis.kind = gap::UnknownKind::ambiguous;
   diagnosis.alternatives = {{{diagnosis.candidates[0]}, 0.6, 0.98}, {{diagnosis.candidates[1]}, 0.4, {}}};
   const std::string text = report::gap_text(diagnosis, gap_source());
-  EXPECT_TRUE(says(text, "either           Each of these sets of effects explains the recording.")) << text;
-  EXPECT_TRUE(says(text, "or               motor_field, 62.0 %")) << text;
+  EXPECT_TRUE(says(text, "either Each of these sets of effects explains the recording.")) << text;
+  EXPECT_TRUE(says(text, "or motor_field, 62.0 %")) << text;
   EXPECT_FALSE(says(text, "not convincing")) << text;
 }
 
