@@ -57,8 +57,8 @@ TEST_F(GapKinds, AWithheldCauseIsOutsideTheLibrary) {
   EXPECT_NE(said("out").find("Outside the library: there is a gap"), std::string::npos) << said("out");
 }
 
-// A vehicle without a gap that waits: at the surface, where no simulated hull floats and few nulls tell little, and
-// under water.
+// A vehicle without a gap that waits: at the surface, where no simulated hull floats and few nulls tell little;
+// and its mission alone, after it has waited under water.
 TEST_F(GapKinds, WithoutSignificanceNoGapIsStated) {
   const auto sail_after_waiting = [&](const std::string& start) {
     write("wait.toml", start + R"(
@@ -78,10 +78,9 @@ step = [
   EXPECT_NE(waited.value("kind", "cannot say"), "ambiguous");
   EXPECT_EQ(waited["sentence"].get<std::string>().find("there is a gap, and"), std::string::npos);
   sail_after_waiting("start.depth_m = 0.9");
-  EXPECT_EQ(gap()["verdict"], "no-gap");
   const auto moving = gap("--from 390");
   EXPECT_EQ(moving["verdict"], "no-gap") << moving["sentence"];
-  EXPECT_LT(moving["duration_s"].get<double>(), 190);
+  EXPECT_LT(moving["duration_s"].get<double>(), waited["duration_s"].get<double>() - 200);
 }
 
 TEST_F(GapKinds, ARecordingThatCannotBeComparedCannotSay) {
