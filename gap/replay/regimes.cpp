@@ -174,8 +174,8 @@ RegimeStatistics::RegimeStatistics(const std::vector<Eigen::MatrixXd>& of_nulls)
   // Few nulls hardly tell their variance: its upper limit (99 %), as far as the heavier tail does not cover it.
   const double freedom = std::max<double>(1, static_cast<double>(of_nulls.size()) - 1);
   constexpr double kLimit = 0.01;
-  variance /=
-      std::min(freedom, kHeavier * boost::math::quantile(boost::math::chi_squared_distribution<>(freedom), kLimit));
+  variance /= std::min(freedom,
+                       kHeavier * boost::math::quantile(boost::math::chi_squared_distribution<>(freedom), kLimit));
 }
 
 double RegimeStatistics::floor(Eigen::Index channel, Eigen::Index regime) const {
