@@ -119,6 +119,12 @@ double log_posterior(const RecordingFit& fit, const Eigen::VectorXd& at, const J
   return fit.linear.about(at).value - prior.root.triangularView<Eigen::Lower>().solve(apart).squaredNorm() / 2;
 }
 
+/// Posterior with a prior that has no bounds. `here`: the likelihood about the prior's mean.
+SetEvidence::Posterior unbounded_posterior(const Members& members, const Likelihood& here) {
+  const Eigen::MatrixXd covariance = covariance_of(here.information, members.std);
+  return {members.columns, members.mean + covariance * here.score, covariance};
+}
+
 }  // namespace
 
 bool are_one(const Cause& a, const Cause& b) {
@@ -133,13 +139,11 @@ bool are_one(const Cause& a, const Cause& b) {
 
 SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set, double strength) const {
   const Members members = members_of(set, library_, strength);
-  const Likelihood here = changes_.of(members.columns).about(members.mean);
-  const Eigen::MatrixXd covariance = covariance_of(here.information, members.std);
-  Posterior all{members.columns, members.mean + covariance * here.score, covariance};
+  Posterior all = unbounded_posterior(members, changes_.of(members.columns).about(members.mean));
   for (Eigen::Index i = 0; i < all.mean.size(); ++i) {
     // The most probable one on the bound, the others given that.
     const double inside = std::clamp(all.mean[i], members.low[i], members.high[i]);
-    if (inside != all.mean[i]) all.mean += (inside - all.mean[i]) / covariance(i, i) * covariance.col(i);
+    if (inside != all.mean[i]) all.mean += (inside - all.mean[i]) / all.covariance(i, i) * all.covariance.col(i);
   }
   all.mean = all.mean.cwiseMax(members.low).cwiseMin(members.high);
   return all;
@@ -159,13 +163,12 @@ double SetEvidence::gain(const CauseSet& set, double strength) const {
   const Members members = members_of(set, library_, strength);
   const Likelihood here = changes_.of(members.columns).about(members.mean);
   double gain = here.blurred(members.std.asDiagonal()).value - changes_.value;
-  const Eigen::MatrixXd covariance = covariance_of(here.information, members.std);
-  const Eigen::VectorXd mean = members.mean + covariance * here.score;
-  for (Eigen::Index i = 0; i < mean.size(); ++i) {
-    // What the evidence gains when the prior ends at the bounds.
-    const double low = members.low[i], high = members.high[i], std = std::max(std::sqrt(covariance(i, i)), 1e-150);
-    gain +=
-        log_share_within(low, high, mean[i], std) - log_share_within(low, high, members.mean[i], members.std[i]);
+  const Posterior wide = unbounded_posterior(members, here);
+  for (Eigen::Index i = 0; i < wide.mean.size(); ++i) {
+    // A prior that ends at the bounds has its whole weight between them.
+    const double low = members.low[i], high = members.high[i];
+    gain += log_share_within(low, high, wide.mean[i], std::max(wide.std(i), 1e-150)) -
+            log_share_within(low, high, members.mean[i], members.std[i]);
   }
   return gain;
 }

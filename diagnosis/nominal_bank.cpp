@@ -48,8 +48,10 @@ struct Alike {
   std::vector<double> typical;
 };
 
-std::vector<Alike> alike_in(const CauseLibrary& library) {
-  std::map<std::string, Alike> by_name;
+using AlikeByName = std::map<std::string, Alike>;
+
+AlikeByName alike_in(const CauseLibrary& library) {
+  AlikeByName by_name;
   for (const Cause& cause : library.causes) {
     for (const CauseParameter& parameter : cause.parameters) {
       if (parameter.is_one_sided()) continue;
@@ -58,30 +60,26 @@ std::vector<Alike> alike_in(const CauseLibrary& library) {
       alike.typical.push_back(parameter.typical * parameter.per_unit);
     }
   }
-  std::vector<Alike> all;
-  for (auto& [name, alike] : by_name) all.push_back(std::move(alike));
-  return all;
+  return by_name;
 }
 
-/// With the numbers of the layout, in their prior standard deviations. What the layout leaves out moves them from
-/// recording to recording: a lag fits one manoeuvre, another the next.
-std::vector<Alike> alike_between_recordings(const CauseLibrary& library) {
-  std::map<std::string, Alike> by_name;
+/// The same with the numbers of the layout, in their prior standard deviations. Effects that the layout leaves out
+/// move these from recording to recording: a lag fits one manoeuvre, another the next.
+AlikeByName alike_between_recordings(const CauseLibrary& library) {
+  AlikeByName by_name = alike_in(library);
   for (std::size_t i = 0; i < library.layout_numbers; ++i) {
     std::string name = library.parameters[i].name;
     std::erase_if(name, [](char c) { return c >= '0' && c <= '9'; });
     by_name[name].columns.push_back(static_cast<Eigen::Index>(i));
     by_name[name].typical.push_back(library.parameters[i].prior_std);
   }
-  std::vector<Alike> all = alike_in(library);
-  for (auto& [name, alike] : by_name) all.push_back(std::move(alike));
-  return all;
+  return by_name;
 }
 
 /// By expected squares of the columns, one vector for each time that they were drawn.
-void set_tolerances(const std::vector<Alike>& groups, std::span<const Eigen::VectorXd> squares,
+void set_tolerances(const AlikeByName& groups, std::span<const Eigen::VectorXd> squares,
                     Eigen::VectorXd& scatter) {
-  for (const Alike& group : groups) {
+  for (const auto& [name, group] : groups) {
     double sum = kToleranceWeight * kUsualTolerance * kUsualTolerance, weight = kToleranceWeight;
     for (const Eigen::VectorXd& one : squares) {
       for (std::size_t i = 0; i < group.columns.size(); ++i, ++weight)
