@@ -17,7 +17,7 @@ struct LayoutEvidence {
   const CauseSearchResult& found;
   const RecordingPower& after;                   ///< of the recording with the causes found
   std::span<const ExplainedRecording> held_out;  ///< may be none
-  /// How much of the gap goes away with a set of causes.
+  /// Share of the gap that goes away with a set of causes.
   std::function<gap::Closure(const CauseSet&)> closure = {};
 };
 

@@ -54,7 +54,7 @@ struct TimeBound {
   double since_start_s = 0;
   std::optional<std::int64_t> utc_ns{};
 };
-/// Of "12.5" or "2026-01-01T00:00:12Z"; nullopt: neither.
+/// Reads "12.5" or "2026-01-01T00:00:12Z"; nullopt: neither.
 [[nodiscard]] std::optional<TimeBound> parse_time_bound(const std::string& text);
 
 /// Part of a recording; without a bound to its end.

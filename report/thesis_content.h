@@ -125,7 +125,7 @@ struct ThesisEstimate {
 [[nodiscard]] ThesisTablePart thesis_estimates(std::string key, std::string title,
                                                const std::vector<ThesisEstimate>& rows, int decimals);
 
-/// What the tables say in a sentence each.
+/// A sentence on each table.
 struct ThesisFinding {
   std::string word, sentence;
 };

@@ -47,7 +47,7 @@ class Intake final : public analysis::ImportSink {
  private:
   void take(Source& source, std::string_view cdr);
   boost::asio::awaitable<void> run();
-  /// What waits, which then waits no more.
+  /// Takes the lines that wait.
   [[nodiscard]] std::string next(bool connected);
 
   std::string port_;

@@ -26,7 +26,7 @@ struct Grounds {
 struct Judgement {
   Verdict verdict = Verdict::unknown;
   std::vector<std::string> reasons;  ///< why the gap is not explained
-  /// Of the verdict unknown: outside, or cannot_say where every reason is a lack of evidence.
+  /// Kind of the verdict unknown: outside, or cannot_say where every reason is a lack of evidence.
   UnknownKind kind = UnknownKind::cannot_say;
 };
 

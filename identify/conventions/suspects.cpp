@@ -201,7 +201,7 @@ std::vector<Suspect> suspects_of_actuators(const config::Layout& layout) {
     out.push_back({std::move(name), std::move(what), std::move(words), [](RecordedMotion&) {},
                    std::move(actuators), log_prior});
   };
-  /// Of the parts from `first` up to before `end`, about neutral.
+  /// Scales the parts from `first` up to before `end` about neutral.
   const auto scaled_parts = [&](Numbers part, std::size_t first, std::size_t end, double factor) {
     return [=](sim::ActuatorValues& values) {
       for (std::size_t i = first; i < end; ++i) {

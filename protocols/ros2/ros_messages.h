@@ -277,7 +277,7 @@ struct MessageType {
 
 /// "sensor_msgs/Imu" to "sensor_msgs/msg/Imu".
 [[nodiscard]] std::string full_name(std::string_view type);
-/// By the full name; null for a type that is not written.
+/// The type of a full name; null where it is not written.
 [[nodiscard]] const MessageType* written_type(std::string_view name);
 
 }  // namespace navcal::protocols::ros2

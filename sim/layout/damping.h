@@ -10,9 +10,10 @@
 
 namespace navcal::sim {
 
-/// Cross-flow drag by strips (Fossen 2011, chapter 6). A strip at x, dx long, w wide and h high, meets
-/// (vl, wl) = (v + x r, w - x q) and feels
-///   dY = -1/2 rho Cd h sqrt(vl^2 + wl^2) vl dx,   dZ = -1/2 rho Cd w sqrt(vl^2 + wl^2) wl dx;
+/// Cross-flow drag by strips (Fossen 2011, chapter 6). A strip at x is dx long, w wide and h high.
+/// It meets the water with (vl, wl) = (v + x r, w - x q). Its forces are
+///   dY = -1/2 rho Cd h sqrt(vl^2 + wl^2) vl dx,   dZ = -1/2 rho Cd w sqrt(vl^2 + wl^2) wl dx,
+/// and it adds to the moments
 ///   N += x dY, M -= x dZ.
 class CrossFlowStrips {
  public:

@@ -34,8 +34,8 @@ enum class LayoutScale : std::uint8_t {
   length_m,  ///< cube root of the volume that the vehicle displaces
 };
 
-/// What an effect changes: the vehicle, an actuator by kind and number from 0, or a degree of freedom, 0 surge to
-/// 5 yaw.
+/// The part that an effect changes: the vehicle, an actuator by kind and number from 0, or a degree of freedom, 0
+/// surge to 5 yaw.
 struct LayoutOwner {
   LayoutPart part = LayoutPart::vehicle;
   std::size_t index = 0;

@@ -250,7 +250,7 @@ struct TwoChunks {
     BagWriter::message(message, 1, imu_message());
     head = bag.out.size();
   }
-  /// How many messages are read, and the remarks.
+  /// Number of messages that are read, and the remarks.
   std::pair<std::size_t, std::vector<std::string>> read() {
     bag.chunk(message, "zstd");
     RecordingSink sink;
