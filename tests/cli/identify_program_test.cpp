@@ -33,10 +33,9 @@ TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {
   write_prior();
   ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 5 -o a.cap"), 0) << said("err");
   ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 6 -o b.cap"), 0) << said("err");
-  ASSERT_EQ(
-      run_navcal(
-          "identify --vehicle prior.toml --holdout b.cap --holdout a.cap -o fit.toml --json fit.json --report fit.html a.cap"),
-      0)
+  ASSERT_EQ(run_navcal("identify --vehicle prior.toml --holdout b.cap --holdout a.cap -o fit.toml --json fit.json "
+                       "--report fit.html a.cap"),
+            0)
       << said("err");
   const auto json = nlohmann::json::parse(said("fit.json"));
   const auto expect_near = [&](const std::string& name, double truth) {
