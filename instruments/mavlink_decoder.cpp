@@ -17,6 +17,7 @@ constexpr std::int64_t kMs_ns = 1'000'000, kUs_ns = 1'000, kNearNewest_ns = 10'0
 constexpr std::int64_t kCounterTurn = std::int64_t{1} << 32;  // of a counter of 32 bits
 constexpr std::uint64_t kUnix_us = 946'684'800'000'000;       // later: UTC, and no time since the boot
 constexpr std::int64_t kFieldAgain_ns = 400'000'000;          // a field that stays the same is taken so often
+constexpr std::int64_t kParameters_ns = 5'000'000'000;        // they are waited for that long
 constexpr std::int64_t kHighResolution_ns = 1'000'000'000;    // without HIGHRES_IMU the others count again
 constexpr double kMilliG_m_s2 = 9.80665e-3;
 constexpr std::uint16_t kNoNumber = 65535;
@@ -47,9 +48,11 @@ std::span<const MavlinkReading> MavlinkDecoder::read(const mavlink::Message& mes
       PowerSample power;
       power.voltage_V = unless(kNoNumber, payload.at<std::uint16_t>(14), 1e-3);
       power.current_A = unless(std::int16_t{-1}, payload.at<std::int16_t>(16), 1e-2);
+      if (!has_battery_status_) current_A_ = power.current_A;
       if (!has_battery_status_ && power.voltage_V) put(power);
       break;
     }
+    case 22: compass_.take(payload.text(8, 16), payload.at<float>(0)); break;
     case 24: read_gps(payload); break;
     case 26: read_integers(payload, 4, 22, 0); break;
     case 27: read_integers(payload, 8, 27, 0); break;
@@ -156,8 +159,23 @@ void MavlinkDecoder::take(int instance, const ImuSample& imu, const std::optiona
   unit.field_uT = field_uT;
   unit.field_ns = time_ns_.value_or(0);
   CompassSample compass;
-  compass.field_body_uT = field_uT;
-  put(compass, instance);
+  compass.field_body_uT = measured_uT(instance, *field_uT);
+  if (compass.field_body_uT) put(compass, instance);
+}
+
+std::optional<Vector3> MavlinkDecoder::measured_uT(int instance, const Vector3& sent_uT) {
+  Unit& unit = units_.at(static_cast<std::size_t>(instance));
+  if (!unit.is_corrected) {
+    if (const auto measured = compass_.measured_uT(instance, sent_uT, current_A_)) return measured;
+    if (!unit.waits_since_ns) unit.waits_since_ns = time_ns_;
+    if (waits_ && time_ns_ && std::abs(*time_ns_ - *unit.waits_since_ns) < kParameters_ns) return std::nullopt;
+    unit.is_corrected = true;
+  }
+  return sent_uT;
+}
+
+bool MavlinkDecoder::has_corrected_fields() const {
+  return std::ranges::any_of(units_, [](const Unit& unit) { return unit.is_corrected; });
 }
 
 void MavlinkDecoder::take_pressure(double hPa, double temperature_C, int instance) {
@@ -204,7 +222,10 @@ void MavlinkDecoder::read_battery(const Payload& payload) {
   }
   power.current_A = unless(std::int16_t{-1}, payload.at<std::int16_t>(30), 1e-2);
   const int instance = payload.at<std::uint8_t>(32);
-  if (instance == 0) has_battery_status_ = true;
+  if (instance == 0) {
+    has_battery_status_ = true;
+    current_A_ = power.current_A;
+  }
   if (power.voltage_V || power.current_A) put(power, instance);
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "instruments/autopilot_compass.h"
 #include "instruments/instrument.h"
 #include "protocols/mavlink.h"
 
@@ -25,13 +26,23 @@ struct MavlinkReading {
 /// The vehicle is the first system whose autopilot (component 1) sends a heartbeat; one that keeps silent for ten
 /// heartbeats of another autopilot is left for it. Other systems and components are not read, but for echo
 /// sounders of the vehicle. A field is taken when it has changed, since an autopilot repeats it.
+///
+/// The autopilot's own calibration of its compass is undone where its parameters are known. They are waited for,
+/// for five seconds of fields: without them the fields stay as they were sent, until the end.
 class MavlinkDecoder {
  public:
   static constexpr int kPrimaryBarometer = 3;  ///< instance of HIGHRES_IMU's pressure
 
+  /// `waits_for_parameters`: false where all that there are have been taken before.
+  explicit MavlinkDecoder(bool waits_for_parameters = true) : waits_(waits_for_parameters) {}
+  /// A parameter of the autopilot that is known from elsewhere.
+  void take_parameter(std::string_view name, double value) { compass_.take(name, value); }
+
   /// Samples of a message; none where it is of no use. Valid until the next call.
   [[nodiscard]] std::span<const MavlinkReading> read(const protocols::mavlink::Message& message);
   [[nodiscard]] std::optional<std::uint8_t> vehicle() const { return vehicle_; }
+  /// True when fields were handed over as the autopilot has corrected them.
+  [[nodiscard]] bool has_corrected_fields() const;
 
  private:
   using Payload = protocols::mavlink::Payload;
@@ -39,6 +50,8 @@ class MavlinkDecoder {
   struct Unit {
     std::optional<Vector3> field_uT;
     std::int64_t field_ns = 0;                       ///< when it was taken
+    std::optional<std::int64_t> waits_since_ns;      ///< for the parameters
+    bool is_corrected = false;                       ///< the parameters did not come
     std::optional<std::int64_t> high_resolution_ns;  ///< newest HIGHRES_IMU
   };
 
@@ -46,6 +59,8 @@ class MavlinkDecoder {
   void read_integers(const Payload& payload, std::size_t first, std::size_t temperature, int instance);
   void read_floats(const Payload& payload);
   void take(int instance, const ImuSample& imu, const std::optional<Vector3>& field_uT);
+  /// Field without the autopilot's calibration. Nullopt while its parameters are waited for.
+  std::optional<Vector3> measured_uT(int instance, const Vector3& sent_uT);
   void take_pressure(double hPa, double temperature_C, int instance);
   void read_gps(const Payload& payload);
   void read_battery(const Payload& payload);
@@ -65,6 +80,9 @@ class MavlinkDecoder {
   std::uint8_t component_ = 0;                      ///< of the message being read
   std::optional<std::int64_t> time_ns_;             ///< likewise
   std::array<Unit, kUnits> units_{};
+  AutopilotCompass compass_;
+  bool waits_;
+  std::optional<double> current_A_;  ///< newest of battery 1
   std::uint64_t fix_us_ = 0;
   bool has_battery_status_ = false;
   std::optional<std::uint8_t> echo_component_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "analysis/import/port_name.h"
@@ -24,6 +25,7 @@ using mavlink::Payload;
 using protocols::samples_line::LineWriter;
 
 constexpr std::size_t kTime_bytes = 8;
+constexpr std::uint32_t kParameter = 22;
 constexpr std::uint64_t kFirst_us = 946'684'800'000'000;   // 2000
 constexpr std::uint64_t kLast_us = 4'102'444'800'000'000;  // 2100
 
@@ -88,19 +90,22 @@ class MavlinkFile {
   void compare_clocks(const Payload& payload, std::int64_t time_ns);
   /// Outputs of which the map makes shaft and fins. False: there is none.
   bool take_mapped(std::span<const MavlinkReading> outputs, const ImportedSample& sample);
+  /// The first value of each parameter, which a ground station may have asked for late, holds from the beginning.
+  void take_first_parameters();
 
   std::string_view file_;
   ImportSink& sink_;
   MotorChannels& channels_;
   ServoParameters servos_;
   ImportFindings findings_;
-  instruments::MavlinkDecoder decoder_;
+  instruments::MavlinkDecoder decoder_{false};
   std::uint64_t untrimmed_ = 0;
 };
 
 ImportFindings MavlinkFile::read() {
   constexpr std::size_t kProgressBytes = 1 << 16;
   findings_.times_are_utc = true;
+  take_first_parameters();
   std::size_t at = 0, told = 0;
   while (at < file_.size()) {
     const std::string_view rest = file_.substr(at);
@@ -123,12 +128,15 @@ ImportFindings MavlinkFile::read() {
   if (untrimmed_ > 0)
     findings_.remarks.push_back(fmt::format(
         "{} frames had the checksum of before their zeros were cut (BlueOS), and were taken", untrimmed_));
+  if (decoder_.has_corrected_fields())
+    findings_.remarks.emplace_back(
+        "fields of the compass are as the autopilot has corrected them: the log lacks its COMPASS_ parameters");
   if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
   return std::move(findings_);
 }
 
 void MavlinkFile::take(const Message& message, std::int64_t time_ns) {
-  constexpr std::uint32_t kSystemTime = 2, kParameter = 22, kOutputs = 36;
+  constexpr std::uint32_t kSystemTime = 2, kOutputs = 36;
   const std::string name = message.name();
   const auto readings = decoder_.read(message);
   const Payload payload(message.payload);
@@ -147,6 +155,20 @@ void MavlinkFile::take(const Message& message, std::int64_t time_ns) {
   if (!readings.empty()) return;
   const bool is_of_another = decoder_.vehicle().value_or(message.system) != message.system;
   sink_.left(is_of_another ? fmt::format("{} (of system {})", name, message.system) : name);
+}
+
+void MavlinkFile::take_first_parameters() {
+  std::set<std::string> taken;
+  for (std::size_t at = 0; at < file_.size();) {
+    const auto found = message_in(file_.substr(at));
+    const bool is_frame = found.verdict == mavlink::Found::Verdict::frame;
+    if (is_frame && found.message.id == kParameter && found.message.component == mavlink::kAutopilot) {
+      const Payload payload(found.message.payload);
+      const std::string name = payload.text(8, 16);
+      if (taken.insert(name).second) decoder_.take_parameter(name, payload.at<float>(0));
+    }
+    at += is_frame ? kTime_bytes + found.message.length : 1;
+  }
 }
 
 bool MavlinkFile::take_mapped(std::span<const MavlinkReading> outputs, const ImportedSample& sample) {

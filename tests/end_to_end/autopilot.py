@@ -3,7 +3,7 @@
 """An autopilot with an encoder of its own: sends MAVLink 2 to a UDP port and answers what is asked.
 
 Its clock is 30 ppm fast; each frame is sent 1 ms + 0 to 20 ms after its time. After half of the time it restarts: its
-clock begins anew. The file that it writes has the true time of each inertial reading, what was sent, and what came.
+clock begins anew. It has added -50 mGauss to the first axis of its compass. The file that it writes has the true time of each inertial reading, what was sent, and what came.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import socket
 import struct
 import time
 
-EXTRA = {0: 50, 27: 144, 30: 39, 36: 222, 76: 152, 77: 143, 132: 85, 137: 195}
+EXTRA = {0: 50, 20: 214, 22: 220, 27: 144, 30: 39, 36: 222, 76: 152, 77: 143, 132: 85, 137: 195}
 LENGTH = {132: 39}
 
 
@@ -95,6 +95,10 @@ class Autopilot:
             what["message"], what["interval_us"] = struct.unpack_from("<ff", payload)
             result = 3 if what["message"] == 105 else 0  # it does not have HIGHRES_IMU
             self.send(self.frame(77, struct.pack("<HBBiBB", 511, result, 0, 0, data[5], data[6])))
+        if number == 20:
+            what["parameter"] = payload[4:20].rstrip(b"\0").decode()
+            value = 1 if "_DIA_" in what["parameter"] else -50 if what["parameter"] == "COMPASS_OFS_X" else 0
+            self.send(self.frame(22, struct.pack("<fHH16sB", value, 900, 65535, what["parameter"].encode(), 9)))
         self.came.append(what)
 
     def wait_until(self, at):

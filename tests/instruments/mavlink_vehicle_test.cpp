@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "config/load.h"
+#include "instruments/autopilot_compass.h"
 #include "protocols/mavlink.h"
 #include "tests/instruments/collector.h"
 #include "tests/instruments/dialogue.h"
@@ -23,6 +24,12 @@ struct Fields {
   }
 };
 
+Fields parameter_value(const std::string& name, float value) {
+  Fields fields = Fields{}.put(value).put(std::uint32_t{0});
+  for (std::size_t i = 0; i < 16; ++i) fields.put(i < name.size() ? name[i] : '\0');
+  return fields.put(std::uint8_t{9});
+}
+
 config::PortSettings port() { return config::default_port("rov", protocols::Protocol::mavlink, 4'000'000); }
 
 struct Vehicle : testing::Test {
@@ -40,6 +47,12 @@ struct Vehicle : testing::Test {
   Verdict raw_imu(std::uint64_t time_us, std::int16_t field = 200) {
     return send(27, Fields{}.put(time_us).put(std::uint64_t{1}).put(std::uint32_t{0}).put(field));
   }
+  /// A calibration that changes nothing but adds `offset_mG` to the first axis.
+  void calibration(float offset_mG = 0) {
+    for (const std::string& name : AutopilotCompass::names(0))
+      parameter(name, name.find("DIA") != std::string::npos ? 1.0F : name == "COMPASS_OFS_X" ? offset_mG : 0.0F);
+  }
+  Verdict parameter(const std::string& name, float value) { return send(22, parameter_value(name, value)); }
   Verdict pressure(std::uint32_t id, std::uint32_t time_ms = 1000, std::uint8_t system = 1,
                    std::uint8_t component = 1) {
     return send(id, Fields{}.put(time_ms).put(1350.0F).put(0.0F).put(std::int16_t{1250}), system, component);
@@ -83,8 +96,35 @@ TEST_F(Vehicle, TheConfiguredSensorsAreTaken) {
   EXPECT_NEAR(*of_other.all<DepthSample>()[0].pressure_Pa, 101'325, 0.01);
 }
 
+TEST_F(Vehicle, TheAutopilotsCalibrationIsUndone) {
+  heartbeat();
+  raw_imu(1'000'000, 190);
+  EXPECT_TRUE(collector.all<CompassSample>().empty()) << "its parameters are waited for";
+  calibration(-50);
+  raw_imu(1'100'000, 200);
+  calibration(25);
+  raw_imu(1'200'000, 275);
+  const auto compass = collector.all<CompassSample>();
+  ASSERT_EQ(compass.size(), 2U);
+  EXPECT_NEAR((*compass[0].field_body_uT)[0], 25, 1e-6);
+  EXPECT_NEAR((*compass[1].field_body_uT)[0], 25, 1e-6) << "calibrated anew: the measured field is the same";
+}
+
+TEST_F(Vehicle, WithoutItsParametersTheFieldStaysAsSent) {
+  heartbeat();
+  for (int i = 0; i < 10; ++i)
+    raw_imu(1'000'000 + 1'000'000 * static_cast<std::uint64_t>(i), static_cast<std::int16_t>(200 + i));
+  calibration(-50);
+  raw_imu(11'500'000, 300);
+  const auto compass = collector.all<CompassSample>();
+  ASSERT_EQ(compass.size(), 6U) << "of the first five seconds none";
+  EXPECT_NEAR((*compass[0].field_body_uT)[0], 20.5, 1e-6);
+  EXPECT_NEAR((*compass.back().field_body_uT)[0], 30, 1e-6) << "a change of sort would be a step of the field";
+}
+
 TEST_F(Vehicle, TheFieldHasTheTiltOfTheAttitudeWhileThatIsNew) {
   heartbeat();
+  calibration();
   attitude(1000);
   raw_imu(1'050'000, 200);
   raw_imu(1'200'000, 210);
@@ -142,7 +182,7 @@ TEST_F(Vehicle, AnotherComponentHasAClockOfItsOwn) {
 
 /// An autopilot that accepts what it can.
 struct FakeAutopilot {
-  bool has_high_resolution = true, is_deaf = false;
+  bool has_high_resolution = true, is_deaf = false, knows_calibration = true;
   std::vector<std::uint32_t> asked{};
   int heartbeats = 0;
 
@@ -152,8 +192,13 @@ struct FakeAutopilot {
     ASSERT_EQ(found.verdict, mavlink::Found::Verdict::frame);
     EXPECT_EQ(found.message.component, 197);
     if (found.message.id == 0) ++heartbeats;
-    if (found.message.id != 76) return;
     const mavlink::Payload payload(found.message.payload);
+    if (found.message.id == 20 && knows_calibration && !is_deaf) {
+      EXPECT_EQ(payload.at<std::int16_t>(0), -1);
+      const std::string name = payload.text(4, 16);
+      if (name != "COMPASS_SCALE") say(dialogue, 22, parameter_value(name, 1));
+    }
+    if (found.message.id != 76) return;
     EXPECT_EQ(payload.at<std::uint16_t>(28), 511);
     asked.push_back(static_cast<std::uint32_t>(payload.at<float>(0)));
     const std::uint8_t result = asked.back() == 105 && !has_high_resolution ? 3 : 0;
@@ -190,7 +235,15 @@ TEST_F(MavlinkDialogue, WaitsForAnAutopilotAndAsksForItsMessages) {
   EXPECT_EQ(autopilot.asked, (std::vector<std::uint32_t>{105, 36, 30, 147, 24, 137}));
   EXPECT_GE(autopilot.heartbeats, 8);
   EXPECT_TRUE(dialogue.start_up().in_service());
-  EXPECT_EQ(dialogue.state(), "running, system 1; its compass is corrected by its own calibration");
+  EXPECT_EQ(dialogue.state(), "running, system 1; the compass's own calibration is undone");
+}
+
+TEST_F(MavlinkDialogue, SaysThatTheCalibrationIsNotKnown) {
+  autopilot.knows_calibration = false;
+  dialogue.begin();
+  live(10, 100);
+  EXPECT_EQ(dialogue.state(),
+            "running, system 1; the compass's own calibration is not known, and stays in the field");
 }
 
 TEST_F(MavlinkDialogue, WithoutHighResolutionItAsksForTheOther) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "instruments/autopilot_compass.h"
 #include "protocols/crc16.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"
@@ -119,9 +120,25 @@ TEST(MavlinkLog, ReadsEachMessageInUnitsOfNavcal) {
     EXPECT_EQ(sink.of_port("motor")[1].line["quantity"], "output3");
     EXPECT_EQ(sink.left_counts["HEARTBEAT"], 1);
     EXPECT_EQ(sink.left_counts["ATTITUDE (of system 9)"], 1);
-    ASSERT_EQ(findings.remarks.size(), 1U);
+    ASSERT_EQ(findings.remarks.size(), 2U);
     EXPECT_NE(findings.remarks[0].find("10.0 s ahead"), std::string::npos) << findings.remarks[0];
+    EXPECT_NE(findings.remarks[1].find("lacks its COMPASS_ parameters"), std::string::npos) << findings.remarks[1];
   }
+}
+
+TEST(MavlinkLog, TheCalibrationOfTheAutopilotIsUndoneFromTheFirstFieldOn) {
+  std::string log = small_tlog(true);
+  for (std::string name : instruments::AutopilotCompass::names(1)) {
+    const float value = name.find("DIA") != std::string::npos ? 1.0F : name == "COMPASS_OFS2_Y" ? -70.0F : 0.0F;
+    name.resize(16);
+    log += entry(kStart_us + 9'000'000, 22,
+                 payload_of(value, std::uint16_t{900}, std::uint16_t{65535}) + name + '\x09', 220, true);
+  }
+  RecordingSink sink;
+  const auto findings = read_mavlink_log(log, sink);
+  expect_vector(sink.of_port("compass2").at(0).line["field_body_uT"], 20, 2, 43);
+  for (const std::string& remark : findings.remarks)
+    EXPECT_EQ(remark.find("COMPASS_"), std::string::npos) << remark;
 }
 
 // Bytes that pymavlink's CRC gives for the heartbeat of the MAVLink guide: X.25 of "123456789" is 0x6F91 before
