@@ -135,8 +135,10 @@ class WebSocketClient {
           if (!origin.empty()) request.set(http::field::origin, origin);
         }));
     boost::beast::websocket::response_type response;
-    boost::system::error_code error;
-    stream_.handshake(response, "localhost:" + std::to_string(port), target, error);
+    // Boost 1.74 leaves the response out where it declines, unless the handshake is asynchronous.
+    stream_.async_handshake(response, "localhost:" + std::to_string(port), target,
+                            [](const boost::system::error_code&) {});
+    context_.run();
     status_ = response.result_int();
     subprotocol_ = std::string(response[boost::beast::http::field::sec_websocket_protocol]);
   }
