@@ -32,7 +32,8 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 # -O2 as Debian builds: -O3 made the daemon a third larger in memory and no faster. What nobody calls is left out.
-set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+# The assertions of the standard library stay in: on a vehicle a wrong index is to end the program, not to go on.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG -D_GLIBCXX_ASSERTIONS")
 add_compile_options(-ffunction-sections -fdata-sections)
 add_link_options(-Wl,--gc-sections -Wl,--as-needed)
 
@@ -123,6 +124,9 @@ function(navcal_room name)
     set(ROOM_SOURCES ${CMAKE_CURRENT_BINARY_DIR}/no_sources.cpp)
     add_library(${target} STATIC ${ROOM_SOURCES})
     target_link_libraries(${target} INTERFACE ${NAVCAL_COMPUTING_FROM}/${name}/lib${target}.a)
+    add_dependencies(${target} navcal_computing)
+    set_property(GLOBAL APPEND PROPERTY NAVCAL_COMPUTING_TARGETS ${target})
+    set_property(GLOBAL APPEND PROPERTY NAVCAL_COMPUTING_FILES ${NAVCAL_COMPUTING_FROM}/${name}/lib${target}.a)
   else()
     add_library(${target} STATIC ${ROOM_SOURCES})
   endif()
@@ -140,6 +144,19 @@ function(navcal_room name)
   endif()
   if(ROOM_FOLDER IN_LIST NAVCAL_UNOPTIMISED_ROOMS)
     target_compile_options(${target} PRIVATE -O0)
+  endif()
+endfunction()
+
+# navcal_computing_target(): brings the libraries of the other build up to date before they are linked.
+function(navcal_computing_target)
+  get_property(targets GLOBAL PROPERTY NAVCAL_COMPUTING_TARGETS)
+  get_property(files GLOBAL PROPERTY NAVCAL_COMPUTING_FILES)
+  if(targets)
+    if(NOT EXISTS ${NAVCAL_COMPUTING_FROM}/CMakeCache.txt)
+      message(FATAL_ERROR "this build links libraries of ${NAVCAL_COMPUTING_FROM}: configure that one first (cmake --preset release)")
+    endif()
+    add_custom_target(navcal_computing COMMAND ${CMAKE_COMMAND} --build ${NAVCAL_COMPUTING_FROM} --target ${targets}
+      BYPRODUCTS ${files} USES_TERMINAL VERBATIM)
   endif()
 endfunction()
 
