@@ -11,40 +11,23 @@
 namespace navcal::gap {
 namespace {
 
-/// Whether the evidence tells each of the effects, at these values, from every other one.
-bool tells(const Evidence& evidence, const EffectSubset& effects, const Eigen::VectorXd& values,
-           const Library& library) {
-  for (const std::size_t effect : effects) {
-    const auto members = parameter_indices(library, {effect});
-    for (std::size_t other = 0; other < library.size(); ++other) {
-      if (std::find(effects.begin(), effects.end(), other) != effects.end() || !library.holds(other)) continue;
-      if (evidence.separation(members, values, parameter_indices(library, {other})) < kObservable_nats)
-        return false;
-    }
-  }
-  return true;
-}
-
-/// Gain in log likelihood by the effects on the rows that are not learnt from, nats. `learn` is 1 in rows to learn
-/// from. Rows that cannot tell the effects from another one predict nothing: a loss by them is none.
+/// Gain in log likelihood by the effects on the rows that are not learned from, nats: log p(judged | learned), with
+/// the effects minus without. It is the difference of two log evidences, so an estimate counts with its error: rows
+/// that cannot tell the effects predict little, and lose little.
 double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, const LinearGaussianModel& model) {
   const Linearised& linear = model.linear;
   const Priors& priors = model.priors;
   const Eigen::VectorXd data = residual_at_zero(linear);
-  const auto members = parameter_indices(model.library, effects);
   const Priors others = without_members(priors, model.library, effects);
-  const Eigen::MatrixXd design = learn.asDiagonal() * linear.design;
-  const Eigen::MatrixXd gram = design.transpose() * linear.design;
-  const Eigen::VectorXd score = design.transpose() * data;
-  const Eigen::VectorXd without = Evidence(gram, score, others.spike, others.slab).base_posterior().mean;
-  const Evidence evidence(gram, score, priors.spike, priors.slab);
-  const Eigen::VectorXd with = evidence.posterior(members).mean;
-  const Eigen::VectorXd judged = (1 - learn.array()).matrix();
-  const auto misfit = [&](const Eigen::VectorXd& values) {
-    return judged.cwiseProduct(data - linear.design * values).squaredNorm();
+  Eigen::VectorXd wide = priors.spike;
+  for (const Eigen::Index j : parameter_indices(model.library, effects)) wide[j] = priors.slab[j];
+  const auto log_likelihood = [&](const Eigen::VectorXd& rows, const Eigen::VectorXd& prior) {
+    const Eigen::MatrixXd design = rows.asDiagonal() * linear.design;
+    return Evidence(design.transpose() * linear.design, design.transpose() * data, prior, prior).base();
   };
-  const double gain_nats = 0.5 * (misfit(without) - misfit(with));
-  return gain_nats < 0 && !tells(evidence, effects, with, model.library) ? 0 : gain_nats;
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(learn.size());
+  return log_likelihood(all, wide) - log_likelihood(learn, wide) - log_likelihood(all, others.spike) +
+         log_likelihood(learn, others.spike);
 }
 
 }  // namespace
