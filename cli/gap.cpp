@@ -14,11 +14,7 @@
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/gap_export.h"
-#include "cli/gap_layouts.h"
-#include "cli/gap_next.h"
 #include "cli/gap_request.h"
-#include "cli/gap_trial.h"
-#include "cli/gap_watch.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -171,19 +167,14 @@ void add_gap(CLI::App& app) {
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
   add_gap_request(*command, *options);
-  command
-      ->add_option(
-          "--nominal", options->nominals,
-          "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
-          "repeatable")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
-  command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
-  command->add_option("--report", options->report, "page with pictures; needs no other file")
-      ->option_text("FILE.html");
-  command->add_option("--effects-out", source.effects_file, "the effects found, for navcal simulate --effects")
-      ->option_text("FILE.toml");
+  add_repeatable(command, "--nominal", "FILE", options->nominals,
+                 "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
+                 "repeatable");
+  add_valued(command, "--json", "FILE|-", options->json,
+             "the answer as one JSON object; - is standard output, without text");
+  add_valued(command, "--report", "FILE.html", options->report, "page with pictures; needs no other file");
+  add_valued(command, "--effects-out", "FILE.toml", source.effects_file,
+             "the effects found, for navcal simulate --effects");
   add_export_options(command, options->exports);
   command->footer(
       "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"

@@ -49,12 +49,9 @@ void expect_no_such_file(const fs::path& file) {
 }  // namespace
 
 void add_export_options(CLI::App* command, ExportOptions& options) {
-  command
-      ->add_option("--export", options.wanted,
-                   "the effects found, for a simulator: sitl (ArduPilot), holoocean or stonefish; without FILE it "
-                   "has the recording's name; repeatable")
-      ->option_text("NAME[=FILE]")
-      ->allow_extra_args(false);
+  add_repeatable(command, "--export", "NAME[=FILE]", options.wanted,
+                 "the effects found, for a simulator: sitl (ArduPilot), holoocean or stonefish; without FILE it "
+                 "has the recording's name; repeatable");
   command->add_flag("--overwrite", options.overwrite, "--export replaces files that exist");
 }
 

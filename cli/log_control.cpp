@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/log_control.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/printable.h"
+#include "cli/commands.h"
 #include "cli/log_fetch.h"
 #include "cli/log_link.h"
 
@@ -90,18 +90,17 @@ void select_log(const LogControlOptions& options) {
     fmt::print("{}\n", base::printable(left_out.get<std::string>()));
 }
 
-CLI::App* add_command(CLI::App* log, const LogOptions& options, const char* name, const char* description,
+CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name, const char* description,
                       const char* example) {
-  auto* const command = log->add_subcommand(name, description);
-  command->add_option("--control", options->control, "navcald's control socket")
-      ->option_text("SOCKET [/run/navcal/control]");
+  auto* const command = log.add_subcommand(name, description);
+  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control, "navcald's control socket");
   command->footer(std::string("Example: ") + example);
   return command;
 }
 
 }  // namespace
 
-void add_log_control(CLI::App* log) {
+void add_log_control(CLI::App& log) {
   const auto options = std::make_shared<LogControlOptions>();
   auto* const list = add_command(log, options, "list", "the logs of a running navcald: name, bytes, begin, end",
                                  "navcal log list");
@@ -110,9 +109,9 @@ void add_log_control(CLI::App* log) {
 
   auto* const fetch = add_command(log, options, "fetch", "downloads finished logs from a running navcald",
                                   "navcal log fetch --to dives");
-  fetch->add_option("FILE", options->files, "names of logs; without any, all that are finished and not there yet")
-      ->option_text("NAME");
-  fetch->add_option("--to", options->to, "folder for the logs")->option_text("DIR")->required();
+  add_valued(fetch, "FILE", "NAME", options->files,
+             "names of logs; without any, all that are finished and not there yet");
+  add_valued(fetch, "--to", "DIR", options->to, "folder for the logs")->required();
   fetch->footer(
       "NAME.part grows in the folder, and the same command continues it after an interruption. Checksums are\n"
       "compared, and a file that is there is never overwritten.\n\nExample: navcal log fetch --to dives");

@@ -123,19 +123,15 @@ void run_remote(const RemoteCommandOptions& options) {
 }
 
 void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
-  command->add_option("--baud", options.remote.baud, "speed of the serial port")
-      ->check(CLI::Range(300, 4000000))
-      ->option_text("BAUD [57600]");
-  command
-      ->add_option("--key-file", options.remote.key_file,
-                   "the key that vehicle and operator share; only its owner may have access to the file")
-      ->option_text("FILE");
-  command->add_option("--budget", options.remote.budget_B_s, "bytes a second that this end sends at most")
-      ->check(CLI::Range(300.0, 1e6))
-      ->option_text("B/S [2000]");
-  command->add_option("--wait", options.wait_s, "at most, for the vehicle and for an answer")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->option_text("SECONDS [30]");
+  add_valued(command, "--baud", "BAUD [57600]", options.remote.baud, "speed of the serial port")
+      ->check(CLI::Range(300, 4000000));
+  add_valued(command, "--key-file", "FILE", options.remote.key_file,
+             "the key that vehicle and operator share; only its owner may have access to the file");
+  add_valued(command, "--budget", "B/S [2000]", options.remote.budget_B_s,
+             "bytes a second that this end sends at most")
+      ->check(CLI::Range(300.0, 1e6));
+  add_valued(command, "--wait", "SECONDS [30]", options.wait_s, "at most, for the vehicle and for an answer")
+      ->check(CLI::Range(0.1, 86400.0));
 }
 
 }  // namespace
@@ -143,37 +139,30 @@ void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
 void add_remote(CLI::App& app) {
   auto* command = app.add_subcommand("remote", "watches and steers a vehicle over a modem or TCP");
   const auto options = std::make_shared<RemoteCommandOptions>();
-  command->add_option("port", options->remote.address, "the modem's serial port, or tcp:HOST:PORT")
-      ->required()
-      ->option_text("PORT");
+  add_valued(command, "port", "PORT", options->remote.address, "the modem's serial port, or tcp:HOST:PORT")
+      ->required();
   auto* const action =
-      command
-          ->add_option("action", options->action,
-                       "status; stop ends every lease, and the vehicle orders its safe state; send a line of the "
-                       "control socket; ls\nlists the logs; get copies one and goes on where it was interrupted. "
-                       "Without one: the live view, which takes\ntyped commands")
-          ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}))
-          ->option_text("[status|stop|send|ls|get]");
-  command
-      ->add_option("argument", options->argument, "of send: the line, an object of JSON; of get: the log's name")
-      ->needs(action)
-      ->option_text("[JSON|NAME]");
-  command->add_option("-o,--output", options->output, "where get puts the log")->option_text("FILE [NAME]");
+      add_valued(command, "action", "[status|stop|send|ls|get]", options->action,
+                 "status; stop ends every lease, and the vehicle orders its safe state; send a line of the "
+                 "control socket; ls\nlists the logs; get copies one and goes on where it was interrupted. "
+                 "Without one: the live view, which takes\ntyped commands")
+          ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}));
+  add_valued(command, "argument", "[JSON|NAME]", options->argument,
+             "of send: the line, an object of JSON; of get: the log's name")
+      ->needs(action);
+  add_valued(command, "-o,--output", "FILE [NAME]", options->output, "where get puts the log");
   add_line_options(command, *options);
-  command->add_option("--holder", options->remote.holder, "name of the lease's holder, as others see it")
-      ->option_text("NAME [operator]");
-  command->add_option("--priority", options->remote.priority, "of the lease of the motor card, against others'")
-      ->check(CLI::Range(0, 1000))
-      ->option_text("NUMBER [10]");
-  command
-      ->add_option("--lease-timeout", options->remote.lease_timeout_s,
-                   "the vehicle stops when no order has come for so long")
-      ->check(CLI::Range(0.1, 60.0))
-      ->option_text("SECONDS [5]");
+  add_valued(command, "--holder", "NAME [operator]", options->remote.holder,
+             "name of the lease's holder, as others see it");
+  add_valued(command, "--priority", "NUMBER [10]", options->remote.priority,
+             "of the lease of the motor card, against others'")
+      ->check(CLI::Range(0, 1000));
+  add_valued(command, "--lease-timeout", "SECONDS [5]", options->remote.lease_timeout_s,
+             "the vehicle stops when no order has come for so long")
+      ->check(CLI::Range(0.1, 60.0));
   command->add_flag("--json", options->json, "prints reports and answers as lines of JSON");
-  command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
-      ->check(CLI::NonNegativeNumber)
-      ->option_text("SECONDS [0]");
+  add_valued(command, "--seconds", "SECONDS [0]", options->seconds, "end after this time (0: at Ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
   command->footer(
       "Typed commands: lease; order RPM A B C; stop; release; status; send {JSON}; quit. Ctrl-C, and closing the "
       "terminal,\ngive the lease back: the vehicle orders its safe state. docs/remote.md tells what a dead link "

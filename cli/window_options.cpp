@@ -2,6 +2,7 @@
 #include "cli/window_options.h"
 
 #include "analysis/failure.h"
+#include "cli/option_kinds.h"
 
 namespace navcal::cli {
 
@@ -19,12 +20,9 @@ record::TimeWindow WindowOptions::window() const {
 }
 
 void add_window(CLI::App& command, WindowOptions& options, const std::string& from_otherwise) {
-  command
-      .add_option(
-          "--from", options.from,
-          "begin of the part of each recording that is used: seconds from its start, or UTC" + from_otherwise)
-      ->option_text("T");
-  command.add_option("--to", options.to, "end of that part")->option_text("T");
+  add_valued(&command, "--from", "T", options.from,
+             "begin of the part of each recording that is used: seconds from its start, or UTC" + from_otherwise);
+  add_valued(&command, "--to", "T", options.to, "end of that part");
 }
 
 }  // namespace navcal::cli
