@@ -11,10 +11,8 @@ constexpr EffectDescription kAccelBias{
     .manoeuvre = "pitch through more than 30 degrees",
     .confounders = {"tilt_offset", "accel_scale"},
     .vector = 3};
-
 /// The accelerometers' zeros are off.
-class AccelBias final : public EffectOf<AccelBias, kAccelBias> {
- public:
+struct AccelBias final : EffectOf<AccelBias, kAccelBias> {
   void accelerometers(const Instant&, Vector3& force_m_s2) override { add_scaled(force_m_s2, 1, vector()); }
 };
 
@@ -24,10 +22,8 @@ constexpr EffectDescription kAccelScale{
     .parameters = {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}},
     .manoeuvre = "pitch through more than 30 degrees",
     .confounders = {"tilt_offset", "accel_bias", "thrust_scale"}};
-
 /// Each accelerometer's scale is off.
-class AccelScale final : public EffectOf<AccelScale, kAccelScale> {
- public:
+struct AccelScale final : EffectOf<AccelScale, kAccelScale> {
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     for (std::size_t i = 0; i < 3; ++i) force_m_s2[i] += p_[i] * now.state.specific_force_m_s2[i];
   }
@@ -40,10 +36,8 @@ constexpr EffectDescription kAccelVibration{
     .manoeuvre = "step the shaft speed through its whole range, straight and level",
     .confounders = {"adc_droop"},
     .vector = 3};
-
 /// The motor's vibration is rectified by the accelerometers.
-class AccelVibration final : public EffectOf<AccelVibration, kAccelVibration> {
- public:
+struct AccelVibration final : EffectOf<AccelVibration, kAccelVibration> {
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     const double current_A = now.state.motor_current_A;
     add_scaled(force_m_s2, current_A * current_A, vector());
@@ -55,10 +49,8 @@ constexpr EffectDescription kAdcDroop{.name = "adc_droop",
                                       .parameters = {{"per_A", 0.0015, -0.1, 0.1}},
                                       .manoeuvre = "step the motor current, straight and level",
                                       .confounders = {"motor_field", "accel_vibration"}};
-
 /// The converter's reference follows the motor's load.
-class AdcDroop final : public EffectOf<AdcDroop, kAdcDroop> {
- public:
+struct AdcDroop final : EffectOf<AdcDroop, kAdcDroop> {
   void card_voltages(const Instant& now, CardVoltages_mV& voltages) override {
     for (double& voltage : voltages) voltage *= 1 + p_[0] * now.state.motor_current_A;
   }
@@ -69,10 +61,8 @@ constexpr EffectDescription kDepthScale{.name = "depth_scale",
                                         .parameters = {{"scale", 0.06, -0.9, 1}},
                                         .manoeuvre = "hold two depths far apart",
                                         .confounders = {"buoyancy"}};
-
 /// The pressure gauge's scale is off.
-class DepthScale final : public EffectOf<DepthScale, kDepthScale> {
- public:
+struct DepthScale final : EffectOf<DepthScale, kDepthScale> {
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.state.position_m[2]; }
 };
 
@@ -81,10 +71,8 @@ constexpr EffectDescription kDepthTemperature{.name = "depth_temperature",
                                               .parameters = {{"m_per_C", 0.025, -1, 1}},
                                               .manoeuvre = "hold one depth while the electronics warm up",
                                               .confounders = {"buoyancy", "depth_scale"}};
-
 /// The pressure gauge's zero moves as the electronics warm up.
-class DepthTemperature final : public EffectOf<DepthTemperature, kDepthTemperature> {
- public:
+struct DepthTemperature final : EffectOf<DepthTemperature, kDepthTemperature> {
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.temperature_rise_C(); }
 };
 
@@ -94,10 +82,8 @@ constexpr EffectDescription kImuLatency{.name = "imu_latency",
                                         .manoeuvre = "fast rudder and elevator doublets",
                                         .confounders = {"compass_lag", "fin_lag"},
                                         .kind = EffectKind::lag};
-
 /// All channels of the inertial card are older than nominal.
-class ImuLatency final : public EffectOf<ImuLatency, kImuLatency> {
- public:
+struct ImuLatency final : EffectOf<ImuLatency, kImuLatency> {
   void delays(Delays& more) override { more.card_s += p_[0]; }
 };
 

@@ -16,10 +16,8 @@ constexpr EffectDescription kCompassLag{.name = "compass_lag",
                                         .confounders = {"imu_latency", "gyro_scale"},
                                         .order = 4,
                                         .kind = EffectKind::lag};
-
 /// The compass filters its magnetometers, hence its heading.
-class CompassLag final : public EffectOf<CompassLag, kCompassLag> {
- public:
+struct CompassLag final : EffectOf<CompassLag, kCompassLag> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     field_body_uT = filter_.at(now.time_s, field_body_uT, p_[0]);
   }
@@ -36,10 +34,8 @@ constexpr EffectDescription kCompassMisalignment{
     .confounders = {"tilt_offset", "declination", "hard_iron", "soft_iron"},
     .vector = 3,
     .order = 1};
-
 /// The triad of magnetometers is turned by the vector a against body and inclinometer.
-class CompassMisalignment final : public EffectOf<CompassMisalignment, kCompassMisalignment> {
- public:
+struct CompassMisalignment final : EffectOf<CompassMisalignment, kCompassMisalignment> {
   void body_field(const Instant&, Vector3& field_body_uT) override {
     const double angle = std::hypot(p_[0], p_[1], p_[2]) * base::kRadiansPerDegree;
     if (angle == 0) return;
@@ -59,10 +55,8 @@ constexpr EffectDescription kDeclination{.name = "declination",
                                          .parameters = {{"angle_deg", 4, -180, 180}},
                                          .manoeuvre = "run straight at the surface on three headings",
                                          .confounders = {"compass_misalignment", "water_current"}};
-
 /// The earth's field is turned about the vertical, positive to the east.
-class Declination final : public EffectOf<Declination, kDeclination> {
- public:
+struct Declination final : EffectOf<Declination, kDeclination> {
   void earth_field(const Instant&, Vector3& field_world_uT) override {
     const double c = std::cos(p_[0] * base::kRadiansPerDegree), s = std::sin(p_[0] * base::kRadiansPerDegree);
     const auto [north, east, down] = field_world_uT;
@@ -77,10 +71,8 @@ constexpr EffectDescription kHardIron{
     .manoeuvre = "turn full circles with pitch of both signs",
     .confounders = {"soft_iron", "compass_misalignment", "motor_field", "mag_temperature"},
     .vector = 3};
-
 /// Permanent magnetism of the vehicle.
-class HardIron final : public EffectOf<HardIron, kHardIron> {
- public:
+struct HardIron final : EffectOf<HardIron, kHardIron> {
   void body_field(const Instant&, Vector3& field_body_uT) override { add_scaled(field_body_uT, 1, vector()); }
 };
 
@@ -91,10 +83,8 @@ constexpr EffectDescription kMagTemperature{
     .manoeuvre = "let the electronics warm up with the motor off",
     .confounders = {"hard_iron", "gyro_drift"},
     .vector = 3};
-
 /// The magnetometers' zeros move as the electronics warm up.
-class MagTemperature final : public EffectOf<MagTemperature, kMagTemperature> {
- public:
+struct MagTemperature final : EffectOf<MagTemperature, kMagTemperature> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, now.temperature_rise_C(), vector());
   }
@@ -108,10 +98,8 @@ constexpr EffectDescription kMagneticHysteresis{.name = "magnetic_hysteresis",
                                                 .manoeuvre = "come to the same heading from both sides",
                                                 .confounders = {"hard_iron", "soft_iron"},
                                                 .order = 2};
-
 /// Iron that remembers the field of the last minute.
-class MagneticHysteresis final : public EffectOf<MagneticHysteresis, kMagneticHysteresis> {
- public:
+struct MagneticHysteresis final : EffectOf<MagneticHysteresis, kMagneticHysteresis> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, p_[0], memory_.at(now.time_s, field_body_uT, kMemory_s));
   }
@@ -127,10 +115,8 @@ constexpr EffectDescription kMotorField{
     .manoeuvre = "step the motor current on a constant heading",
     .confounders = {"hard_iron", "adc_droop"},
     .vector = 3};
-
 /// The motor's supply makes a field of its own.
-class MotorField final : public EffectOf<MotorField, kMotorField> {
- public:
+struct MotorField final : EffectOf<MotorField, kMotorField> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, now.state.motor_current_A, vector());
   }
@@ -151,10 +137,8 @@ constexpr EffectDescription kSoftIron{.name = "soft_iron",
                                       .confounders = {"hard_iron", "compass_misalignment", "magnetic_hysteresis"},
                                       .vector = 6,
                                       .order = 0};
-
 /// Iron that the field itself magnetises, without preferred rotation.
-class SoftIron final : public EffectOf<SoftIron, kSoftIron> {
- public:
+struct SoftIron final : EffectOf<SoftIron, kSoftIron> {
   void body_field(const Instant&, Vector3& field_body_uT) override {
     const auto [xx, yy, zz, xy, xz, yz] = p_;
     const Matrix3 more{{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
@@ -167,10 +151,8 @@ constexpr EffectDescription kTiltOffset{.name = "tilt_offset",
                                         .parameters = {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}},
                                         .manoeuvre = "pitch up and down by the same angle",
                                         .confounders = {"accel_bias", "compass_misalignment"}};
-
 /// The inclinometer is mounted askew.
-class TiltOffset final : public EffectOf<TiltOffset, kTiltOffset> {
- public:
+struct TiltOffset final : EffectOf<TiltOffset, kTiltOffset> {
   void tilt_said(const Instant&, Tilt& tilt) override {
     tilt.roll_rad += p_[0] * base::kRadiansPerDegree;
     tilt.pitch_rad += p_[1] * base::kRadiansPerDegree;
@@ -181,10 +163,8 @@ constexpr EffectDescription kTiltSlosh{.name = "tilt_slosh",
                                        .equation = "roll -= k a_y/g, pitch += k a_x/g, before the fluid's lag",
                                        .parameters = {{"gain", 0.3, -0.15, 2}},
                                        .manoeuvre = "turn at one rate and two speeds"};
-
 /// The inclinometer's fluid sees gravity less a share of the vehicle's acceleration.
-class TiltSlosh final : public EffectOf<TiltSlosh, kTiltSlosh> {
- public:
+struct TiltSlosh final : EffectOf<TiltSlosh, kTiltSlosh> {
   void tilt_seen(const Instant& now, Tilt& tilt) override {
     const Vector3 acceleration = now.acceleration_m_s2();
     tilt.roll_rad -= p_[0] * acceleration[1] / kGravity_m_s2;

@@ -13,10 +13,8 @@ constexpr EffectDescription kElevatorOffset{.name = "elevator_offset",
                                             .manoeuvre = "elevator doublets, level",
                                             .confounders = {"fin_gain", "fin_offset"},
                                             .place = EffectPlace::vehicle};
-
 /// The fins stand off in the sense of an elevator command, between servo and fin.
-class ElevatorOffset final : public EffectOf<ElevatorOffset, kElevatorOffset> {
- public:
+struct ElevatorOffset final : EffectOf<ElevatorOffset, kElevatorOffset> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     const double elevator_rad = p_[0] * std::numbers::pi / 180;
     constexpr double kShare = std::numbers::sqrt3 / 2;  // docs/simulator.md: how rudder and elevator mix
@@ -32,10 +30,8 @@ constexpr EffectDescription kFinBacklash{.name = "fin_backlash",
                                          .place = EffectPlace::vehicle,
                                          .order = 2,
                                          .kind = EffectKind::backlash};
-
 /// Backlash of total width b between the servo that is reported and the fin.
-class FinBacklash final : public EffectOf<FinBacklash, kFinBacklash> {
- public:
+struct FinBacklash final : EffectOf<FinBacklash, kFinBacklash> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     if (!begun_) fins_rad_ = fins_rad;
     begun_ = true;
@@ -58,10 +54,8 @@ constexpr EffectDescription kFinGain{.name = "fin_gain",
                                      .confounders = {"fin_lag", "yaw_damping", "thrust_scale"},
                                      .place = EffectPlace::vehicle,
                                      .order = 0};
-
 /// The fin turns further than the servo that is reported.
-class FinGain final : public EffectOf<FinGain, kFinGain> {
- public:
+struct FinGain final : EffectOf<FinGain, kFinGain> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     for (double& fin_rad : fins_rad) fin_rad *= 1 + p_[0];
   }
@@ -75,10 +69,8 @@ constexpr EffectDescription kFinLag{.name = "fin_lag",
                                     .place = EffectPlace::vehicle,
                                     .order = 1,
                                     .kind = EffectKind::lag};
-
 /// A further lag between the servo that is reported and the fin.
-class FinLag final : public EffectOf<FinLag, kFinLag> {
- public:
+struct FinLag final : EffectOf<FinLag, kFinLag> {
   void link_fins(double /*time_s*/, double step_s, Vector3& fins_rad) override {
     elapsed_s_ += step_s;
     fins_rad = filter_.at(elapsed_s_, fins_rad, p_[0]);
@@ -95,10 +87,8 @@ constexpr EffectDescription kFinOffset{.name = "fin_offset",
                                        .manoeuvre = "rudder doublets, straight",
                                        .confounders = {"fin_gain", "elevator_offset"},
                                        .place = EffectPlace::vehicle};
-
 /// The fins stand off in the sense of a rudder command, between servo and fin.
-class FinOffset final : public EffectOf<FinOffset, kFinOffset> {
- public:
+struct FinOffset final : EffectOf<FinOffset, kFinOffset> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     const double rudder_rad = p_[0] * std::numbers::pi / 180;
     add_scaled(fins_rad, rudder_rad, {-1, 0.5, 0.5});  // docs/simulator.md: how rudder and elevator mix

@@ -22,10 +22,8 @@ constexpr EffectDescription kGyroCrossAxis{
                    {"bz_from_y", 0.03, -0.5, 0.5}},
     .manoeuvre = "turn level, then turn pitched up",
     .confounders = {"compass_misalignment", "tilt_offset", "gyro_g_sensitivity"}};
-
 /// Each gyro feels the rates about the two other axes.
-class GyroCrossAxis final : public EffectOf<GyroCrossAxis, kGyroCrossAxis> {
- public:
+struct GyroCrossAxis final : EffectOf<GyroCrossAxis, kGyroCrossAxis> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const double* factor = p_.data();
     for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {
@@ -44,10 +42,8 @@ constexpr EffectDescription kGyroDrift{.name = "gyro_drift",
                                                       {"deg_per_s2_bz", 0.001, -1, 1}},
                                        .manoeuvre = "run long straight legs",
                                        .confounders = {"gyro_temperature"}};
-
 /// Each gyro's zero drifts steadily from the beginning of the mission.
-class GyroDrift final : public EffectOf<GyroDrift, kGyroDrift> {
- public:
+struct GyroDrift final : EffectOf<GyroDrift, kGyroDrift> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * base::kRadiansPerDegree * now.time_s;
   }
@@ -70,10 +66,8 @@ constexpr EffectDescription kGyroGSensitivity{.name = "gyro_g_sensitivity",
                                               .manoeuvre = "hold a pitch without turning",
                                               .confounders = {"tilt_offset", "gyro_cross_axis"},
                                               .vector = 3};
-
 /// Each gyro feels the specific force, too.
-class GyroGSensitivity final : public EffectOf<GyroGSensitivity, kGyroGSensitivity> {
- public:
+struct GyroGSensitivity final : EffectOf<GyroGSensitivity, kGyroGSensitivity> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const Vector3& force = now.state.specific_force_m_s2;
     for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {
@@ -92,10 +86,8 @@ constexpr EffectDescription kGyroNonlinearity{.name = "gyro_nonlinearity",
                                                              {"s_per_deg_bz", 0.0008, -0.01, 0.01}},
                                               .manoeuvre = "turn at two very different rates",
                                               .confounders = {"gyro_scale"}};
-
 /// Each gyro's scale grows with the rate.
-class GyroNonlinearity final : public EffectOf<GyroNonlinearity, kGyroNonlinearity> {
- public:
+struct GyroNonlinearity final : EffectOf<GyroNonlinearity, kGyroNonlinearity> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const double rate = now.state.rate_rad_s[kGyroAxes[i]];
@@ -112,10 +104,8 @@ constexpr EffectDescription kGyroRandomWalk{.name = "gyro_random_walk",
                                                            {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}},
                                             .manoeuvre = TellingManoeuvre::none(),
                                             .place = EffectPlace::lines};
-
 /// Each gyro's zero walks at random.
-class GyroRandomWalk final : public EffectOf<GyroRandomWalk, kGyroRandomWalk> {
- public:
+struct GyroRandomWalk final : EffectOf<GyroRandomWalk, kGyroRandomWalk> {
   void reseed(std::uint64_t seed) override { noise_ = Noise(seed); }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const double root = std::sqrt(std::max(0.0, now.time_s - time_s_.value_or(now.time_s)));
@@ -141,10 +131,8 @@ constexpr EffectDescription kGyroScale{
                    {"scale_bz", 0.03, -0.9, 1}},
     .manoeuvre = "turn two full revolutions one way",
     .confounders = {"fin_gain", "imu_latency", "compass_lag", "gyro_nonlinearity"}};
-
 /// Each gyro's scale is off.
-class GyroScale final : public EffectOf<GyroScale, kGyroScale> {
- public:
+struct GyroScale final : EffectOf<GyroScale, kGyroScale> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * now.state.rate_rad_s[kGyroAxes[i]];
   }
@@ -158,10 +146,8 @@ constexpr EffectDescription kGyroTemperature{.name = "gyro_temperature",
                                                             {"deg_per_s_per_C_bz", 0.06, -5, 5}},
                                              .manoeuvre = "run once from cold and once warmed up",
                                              .confounders = {"gyro_drift"}};
-
 /// Each gyro's zero moves as the electronics warm up.
-class GyroTemperature final : public EffectOf<GyroTemperature, kGyroTemperature> {
- public:
+struct GyroTemperature final : EffectOf<GyroTemperature, kGyroTemperature> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i)
       rate_rad_s[i] += p_[i] * base::kRadiansPerDegree * now.temperature_rise_C();

@@ -34,10 +34,8 @@ constexpr EffectDescription kArrivalJitter{.name = "arrival_jitter",
                                                           {"motor_mean_s", 0.005, 0, 1}},
                                            .manoeuvre = TellingManoeuvre::none(),
                                            .place = EffectPlace::lines};
-
 /// The host takes frames late, by exponential delays.
-class ArrivalJitter final : public OnEachLine<ArrivalJitter, kArrivalJitter> {
- public:
+struct ArrivalJitter final : OnEachLine<ArrivalJitter, kArrivalJitter> {
   void line(Instrument of, double, Transmission& way) override {
     way.late_s -= parameter(of) * std::log1p(-random(of));
   }
@@ -50,10 +48,8 @@ constexpr EffectDescription kClockError{.name = "clock_error",
                                                        {"motor_ppm", 100, -10000, 10000}},
                                         .manoeuvre = TellingManoeuvre::none(),
                                         .place = EffectPlace::lines};
-
 /// The clocks of compass and cards run slow; the receiver's is that of its satellites.
-class ClockError final : public EffectOf<ClockError, kClockError> {
- public:
+struct ClockError final : EffectOf<ClockError, kClockError> {
   void clock(Instrument of, double& slow_ppm) override {
     if (of == Instrument::compass) slow_ppm += p_[0];
     if (of == Instrument::imu) slow_ppm += p_[1];
@@ -69,10 +65,8 @@ constexpr EffectDescription kDroppedFrames{.name = "dropped_frames",
                                                           {"motor_probability", 0.02, 0, 1}},
                                            .manoeuvre = TellingManoeuvre::none(),
                                            .place = EffectPlace::lines};
-
 /// Frames are lost on their way to the host.
-class DroppedFrames final : public OnEachLine<DroppedFrames, kDroppedFrames> {
- public:
+struct DroppedFrames final : OnEachLine<DroppedFrames, kDroppedFrames> {
   void line(Instrument of, double, Transmission& way) override {
     if (random(of) < parameter(of)) way.copies = 0;
   }
@@ -84,10 +78,8 @@ constexpr EffectDescription kNoiseLevel{
     .parameters = {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
     .manoeuvre = TellingManoeuvre::none(),
     .place = EffectPlace::lines};
-
 /// Every instrument's noise is stronger.
-class NoiseLevel final : public EffectOf<NoiseLevel, kNoiseLevel> {
- public:
+struct NoiseLevel final : EffectOf<NoiseLevel, kNoiseLevel> {
   void noise(Instrument of, double& factor) override { factor *= 1 + p_[static_cast<std::size_t>(of)]; }
 };
 
@@ -99,10 +91,8 @@ constexpr EffectDescription kRepeatedFrames{.name = "repeated_frames",
                                                            {"motor_probability", 0.02, 0, 1}},
                                             .manoeuvre = TellingManoeuvre::none(),
                                             .place = EffectPlace::lines};
-
 /// Frames come twice.
-class RepeatedFrames final : public OnEachLine<RepeatedFrames, kRepeatedFrames> {
- public:
+struct RepeatedFrames final : OnEachLine<RepeatedFrames, kRepeatedFrames> {
   void line(Instrument of, double, Transmission& way) override {
     if (random(of) < parameter(of)) way.copies *= 2;
   }
@@ -113,10 +103,8 @@ constexpr EffectDescription kStalls{.name = "stalls",
                                     .parameters = {{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}},
                                     .manoeuvre = TellingManoeuvre::none(),
                                     .place = EffectPlace::lines};
-
 /// The host takes nothing from a line for a while, then all at once; each line on its own.
-class Stalls final : public OnEachLine<Stalls, kStalls> {
- public:
+struct Stalls final : OnEachLine<Stalls, kStalls> {
   void line(Instrument of, double time_s, Transmission& way) override {
     if (p_[0] <= 0 || p_[1] <= 0) return;
     double& next_s = next_s_[static_cast<std::size_t>(of)];

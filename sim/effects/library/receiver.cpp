@@ -10,10 +10,8 @@ constexpr EffectDescription kGpsLatency{.name = "gps_latency",
                                         .manoeuvre = "run straight at the surface at two speeds",
                                         .confounders = {"gps_lever_arm"},
                                         .kind = EffectKind::lag};
-
 /// Position and velocity are older than the second that the message states.
-class GpsLatency final : public EffectOf<GpsLatency, kGpsLatency> {
- public:
+struct GpsLatency final : EffectOf<GpsLatency, kGpsLatency> {
   void delays(Delays& more) override { more.gps_s += p_[0]; }
 };
 
@@ -23,10 +21,8 @@ constexpr EffectDescription kGpsLeverArm{.name = "gps_lever_arm",
                                          .manoeuvre = "turn on the spot at the surface",
                                          .confounders = {"gps_latency"},
                                          .vector = 2};
-
 /// The antenna is off the origin by l = (x, y, 0), in body axes.
-class GpsLeverArm final : public EffectOf<GpsLeverArm, kGpsLeverArm> {
- public:
+struct GpsLeverArm final : EffectOf<GpsLeverArm, kGpsLeverArm> {
   void antenna(const Instant& now, AntennaMotion& motion) override {
     const Matrix3 R = R_world_from_body(now.state.euler_rad);
     const Vector3 arm_m{p_[0], p_[1], 0};

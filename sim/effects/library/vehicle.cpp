@@ -10,10 +10,8 @@ constexpr EffectDescription kBuoyancy{.name = "buoyancy",
                                       .manoeuvre = "glide or hover with the propeller off",
                                       .confounders = {"depth_scale", "elevator_offset"},
                                       .place = EffectPlace::vehicle};
-
 /// The vehicle is not of the water's weight.
-class Buoyancy final : public EffectOf<Buoyancy, kBuoyancy> {
- public:
+struct Buoyancy final : EffectOf<Buoyancy, kBuoyancy> {
   void influence(double /*time_s*/, Influences& on) override { on.buoyancy_N += p_[0]; }
 };
 
@@ -23,10 +21,8 @@ constexpr EffectDescription kThrustScale{.name = "thrust_scale",
                                          .manoeuvre = "run reciprocal legs with speed steps at the surface",
                                          .confounders = {"water_current", "fin_gain", "accel_scale"},
                                          .place = EffectPlace::vehicle};
-
 /// The propeller pushes more than nominal.
-class ThrustScale final : public EffectOf<ThrustScale, kThrustScale> {
- public:
+struct ThrustScale final : EffectOf<ThrustScale, kThrustScale> {
   void influence(double /*time_s*/, Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
 };
 
@@ -37,10 +33,8 @@ constexpr EffectDescription kWaterCurrent{.name = "water_current",
                                           .confounders = {"thrust_scale", "declination"},
                                           .place = EffectPlace::vehicle,
                                           .vector = 2};
-
 /// The water moves over the ground.
-class WaterCurrent final : public EffectOf<WaterCurrent, kWaterCurrent> {
- public:
+struct WaterCurrent final : EffectOf<WaterCurrent, kWaterCurrent> {
   void influence(double /*time_s*/, Influences& on) override {
     on.current_m_s[0] += p_[0];
     on.current_m_s[1] += p_[1];
@@ -53,10 +47,8 @@ constexpr EffectDescription kYawDamping{.name = "yaw_damping",
                                         .manoeuvre = "rudder doublets of two sizes at two speeds",
                                         .confounders = {"fin_gain", "fin_lag", "thrust_scale"},
                                         .place = EffectPlace::vehicle};
-
 /// The hull resists turning more than nominal.
-class YawDamping final : public EffectOf<YawDamping, kYawDamping> {
- public:
+struct YawDamping final : EffectOf<YawDamping, kYawDamping> {
   void influence(double /*time_s*/, Influences& on) override { on.yaw_damping_per_s += p_[0]; }
 };
 
