@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cstdio>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "cli/option_kinds.h"

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "validation/confounded_effects.h"
-#include "validation/missions.h"
 
 namespace navcal::validation {
 namespace {

@@ -19,7 +19,6 @@
 #include "protocols/frame.h"
 #include "protocols/motor_card.h"
 #include "record/port_matching.h"
-#include "record/recording.h"
 
 namespace navcal::identify {
 namespace {

@@ -2,7 +2,6 @@
 #include "report/simulators/representation.h"
 
 #include <algorithm>
-#include <array>
 
 #include "sim/effects/effect_table.h"
 

@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "config/layout.h"
+#include "sim/layout/actuator_forces.h"
 #include "sim/layout/actuators.h"
 #include "sim/layout/damping.h"
 #include "sim/layout/restoring.h"
-#include "sim/layout/surface_force.h"
-#include "sim/layout/thruster_force.h"
 #include "sim/vehicle/body.h"
 #include "sim/vehicle/influences.h"
 

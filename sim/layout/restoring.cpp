@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/layout/restoring.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "sim/layout/rigid_body.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/outlets/signalk_feed.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "base/utc_text.h"

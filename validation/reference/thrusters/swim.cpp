@@ -9,9 +9,7 @@
 
 #include "validation/reference/card.h"
 #include "validation/reference/compass.h"
-#include "validation/reference/sink.h"
 #include "validation/reference/thrusters/craft.h"
-#include "validation/reference/thrusters/outputs.h"
 
 namespace navcal::reference::thrusters {
 namespace {
