@@ -9,19 +9,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kGyroCrossAxis{
-    .name = "gyro_cross_axis",
-    .equation = "w_i += k w_j",
-    .parameters = {{"ax_from_y", 0.03, -0.5, 0.5},
-                   {"ax_from_z", 0.03, -0.5, 0.5},
-                   {"az_from_x", 0.03, -0.5, 0.5},
-                   {"az_from_y", 0.03, -0.5, 0.5},
-                   {"by_from_x", 0.03, -0.5, 0.5},
-                   {"by_from_z", 0.03, -0.5, 0.5},
-                   {"bz_from_x", 0.03, -0.5, 0.5},
-                   {"bz_from_y", 0.03, -0.5, 0.5}},
-    .manoeuvre = "turn level, then turn pitched up",
-    .confounders = {"compass_misalignment", "tilt_offset", "gyro_g_sensitivity"}};
+constexpr EffectDescription kGyroCrossAxis =
+    described("gyro_cross_axis", "w_i += k w_j",
+              {{"ax_from_y", 0.03, -0.5, 0.5},
+               {"ax_from_z", 0.03, -0.5, 0.5},
+               {"az_from_x", 0.03, -0.5, 0.5},
+               {"az_from_y", 0.03, -0.5, 0.5},
+               {"by_from_x", 0.03, -0.5, 0.5},
+               {"by_from_z", 0.03, -0.5, 0.5},
+               {"bz_from_x", 0.03, -0.5, 0.5},
+               {"bz_from_y", 0.03, -0.5, 0.5}},
+              "turn level, then turn pitched up",
+              {.confounders = {"compass_misalignment", "tilt_offset", "gyro_g_sensitivity"}});
 /// Each gyro feels the rates about the two other axes.
 struct GyroCrossAxis final : EffectOf<GyroCrossAxis, kGyroCrossAxis> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
@@ -34,14 +33,13 @@ struct GyroCrossAxis final : EffectOf<GyroCrossAxis, kGyroCrossAxis> {
   }
 };
 
-constexpr EffectDescription kGyroDrift{.name = "gyro_drift",
-                                       .equation = "w += c t",
-                                       .parameters = {{"deg_per_s2_ax", 0.001, -1, 1},
-                                                      {"deg_per_s2_az", 0.001, -1, 1},
-                                                      {"deg_per_s2_by", 0.001, -1, 1},
-                                                      {"deg_per_s2_bz", 0.001, -1, 1}},
-                                       .manoeuvre = "run long straight legs",
-                                       .confounders = {"gyro_temperature"}};
+constexpr EffectDescription kGyroDrift =
+    described("gyro_drift", "w += c t",
+              {{"deg_per_s2_ax", 0.001, -1, 1},
+               {"deg_per_s2_az", 0.001, -1, 1},
+               {"deg_per_s2_by", 0.001, -1, 1},
+               {"deg_per_s2_bz", 0.001, -1, 1}},
+              "run long straight legs", {.confounders = {"gyro_temperature"}});
 /// Each gyro's zero drifts steadily from the beginning of the mission.
 struct GyroDrift final : EffectOf<GyroDrift, kGyroDrift> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
@@ -49,23 +47,21 @@ struct GyroDrift final : EffectOf<GyroDrift, kGyroDrift> {
   }
 };
 
-constexpr EffectDescription kGyroGSensitivity{.name = "gyro_g_sensitivity",
-                                              .equation = "w_i += G_i . f",
-                                              .parameters = {{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"az_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"az_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"az_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"by_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"by_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"by_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"bz_z_deg_per_s_per_g", 0.6, -50, 50}},
-                                              .manoeuvre = "hold a pitch without turning",
-                                              .confounders = {"tilt_offset", "gyro_cross_axis"},
-                                              .vector = 3};
+constexpr EffectDescription kGyroGSensitivity =
+    described("gyro_g_sensitivity", "w_i += G_i . f",
+              {{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
+               {"az_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"az_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"az_z_deg_per_s_per_g", 0.6, -50, 50},
+               {"by_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"by_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"by_z_deg_per_s_per_g", 0.6, -50, 50},
+               {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"bz_z_deg_per_s_per_g", 0.6, -50, 50}},
+              "hold a pitch without turning", {.confounders = {"tilt_offset", "gyro_cross_axis"}, .vector = 3});
 /// Each gyro feels the specific force, too.
 struct GyroGSensitivity final : EffectOf<GyroGSensitivity, kGyroGSensitivity> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
@@ -78,14 +74,13 @@ struct GyroGSensitivity final : EffectOf<GyroGSensitivity, kGyroGSensitivity> {
   }
 };
 
-constexpr EffectDescription kGyroNonlinearity{.name = "gyro_nonlinearity",
-                                              .equation = "w += k w |w|",
-                                              .parameters = {{"s_per_deg_ax", 0.0008, -0.01, 0.01},
-                                                             {"s_per_deg_az", 0.0008, -0.01, 0.01},
-                                                             {"s_per_deg_by", 0.0008, -0.01, 0.01},
-                                                             {"s_per_deg_bz", 0.0008, -0.01, 0.01}},
-                                              .manoeuvre = "turn at two very different rates",
-                                              .confounders = {"gyro_scale"}};
+constexpr EffectDescription kGyroNonlinearity =
+    described("gyro_nonlinearity", "w += k w |w|",
+              {{"s_per_deg_ax", 0.0008, -0.01, 0.01},
+               {"s_per_deg_az", 0.0008, -0.01, 0.01},
+               {"s_per_deg_by", 0.0008, -0.01, 0.01},
+               {"s_per_deg_bz", 0.0008, -0.01, 0.01}},
+              "turn at two very different rates", {.confounders = {"gyro_scale"}});
 /// Each gyro's scale grows with the rate.
 struct GyroNonlinearity final : EffectOf<GyroNonlinearity, kGyroNonlinearity> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
@@ -96,14 +91,12 @@ struct GyroNonlinearity final : EffectOf<GyroNonlinearity, kGyroNonlinearity> {
   }
 };
 
-constexpr EffectDescription kGyroRandomWalk{.name = "gyro_random_walk",
-                                            .equation = "w += integral of white noise",
-                                            .parameters = {{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
-                                                           {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
-                                                           {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
-                                                           {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}},
-                                            .manoeuvre = TellingManoeuvre::none(),
-                                            .place = EffectPlace::lines};
+constexpr EffectDescription kGyroRandomWalk = described("gyro_random_walk", "w += integral of white noise",
+                                                        {{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
+                                                         {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
+                                                         {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
+                                                         {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}},
+                                                        TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Each gyro's zero walks at random.
 struct GyroRandomWalk final : EffectOf<GyroRandomWalk, kGyroRandomWalk> {
   void reseed(std::uint64_t seed) override { noise_ = Noise(seed); }
@@ -122,15 +115,14 @@ struct GyroRandomWalk final : EffectOf<GyroRandomWalk, kGyroRandomWalk> {
   GyroRates walk_rad_s_{};
 };
 
-constexpr EffectDescription kGyroScale{
-    .name = "gyro_scale",
-    .equation = "w += k w",
-    .parameters = {{"scale_ax", 0.03, -0.9, 1},
-                   {"scale_az", 0.03, -0.9, 1},
-                   {"scale_by", 0.03, -0.9, 1},
-                   {"scale_bz", 0.03, -0.9, 1}},
-    .manoeuvre = "turn two full revolutions one way",
-    .confounders = {"fin_gain", "imu_latency", "compass_lag", "gyro_nonlinearity"}};
+constexpr EffectDescription kGyroScale =
+    described("gyro_scale", "w += k w",
+              {{"scale_ax", 0.03, -0.9, 1},
+               {"scale_az", 0.03, -0.9, 1},
+               {"scale_by", 0.03, -0.9, 1},
+               {"scale_bz", 0.03, -0.9, 1}},
+              "turn two full revolutions one way",
+              {.confounders = {"fin_gain", "imu_latency", "compass_lag", "gyro_nonlinearity"}});
 /// Each gyro's scale is off.
 struct GyroScale final : EffectOf<GyroScale, kGyroScale> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
@@ -138,14 +130,13 @@ struct GyroScale final : EffectOf<GyroScale, kGyroScale> {
   }
 };
 
-constexpr EffectDescription kGyroTemperature{.name = "gyro_temperature",
-                                             .equation = "w += c T, T above 15 C",
-                                             .parameters = {{"deg_per_s_per_C_ax", 0.06, -5, 5},
-                                                            {"deg_per_s_per_C_az", 0.06, -5, 5},
-                                                            {"deg_per_s_per_C_by", 0.06, -5, 5},
-                                                            {"deg_per_s_per_C_bz", 0.06, -5, 5}},
-                                             .manoeuvre = "run once from cold and once warmed up",
-                                             .confounders = {"gyro_drift"}};
+constexpr EffectDescription kGyroTemperature =
+    described("gyro_temperature", "w += c T, T above 15 C",
+              {{"deg_per_s_per_C_ax", 0.06, -5, 5},
+               {"deg_per_s_per_C_az", 0.06, -5, 5},
+               {"deg_per_s_per_C_by", 0.06, -5, 5},
+               {"deg_per_s_per_C_bz", 0.06, -5, 5}},
+              "run once from cold and once warmed up", {.confounders = {"gyro_drift"}});
 /// Each gyro's zero moves as the electronics warm up.
 struct GyroTemperature final : EffectOf<GyroTemperature, kGyroTemperature> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {

@@ -26,14 +26,12 @@ class OnEachLine : public EffectOf<Self, kAbout> {
   std::array<Noise, kInstruments> noises_{Noise(1), Noise(2), Noise(3), Noise(4)};
 };
 
-constexpr EffectDescription kArrivalJitter{.name = "arrival_jitter",
-                                           .equation = "arrival += Exp(mean)",
-                                           .parameters = {{"compass_mean_s", 0.005, 0, 1},
-                                                          {"imu_mean_s", 0.005, 0, 1},
-                                                          {"gps_mean_s", 0.005, 0, 1},
-                                                          {"motor_mean_s", 0.005, 0, 1}},
-                                           .manoeuvre = TellingManoeuvre::none(),
-                                           .place = EffectPlace::lines};
+constexpr EffectDescription kArrivalJitter = described("arrival_jitter", "arrival += Exp(mean)",
+                                                       {{"compass_mean_s", 0.005, 0, 1},
+                                                        {"imu_mean_s", 0.005, 0, 1},
+                                                        {"gps_mean_s", 0.005, 0, 1},
+                                                        {"motor_mean_s", 0.005, 0, 1}},
+                                                       TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// The host takes frames late, by exponential delays.
 struct ArrivalJitter final : OnEachLine<ArrivalJitter, kArrivalJitter> {
   void line(Instrument of, double, Transmission& way) override {
@@ -41,13 +39,10 @@ struct ArrivalJitter final : OnEachLine<ArrivalJitter, kArrivalJitter> {
   }
 };
 
-constexpr EffectDescription kClockError{.name = "clock_error",
-                                        .equation = "period *= 1 + e",
-                                        .parameters = {{"compass_ppm", 100, -10000, 10000},
-                                                       {"imu_ppm", 100, -10000, 10000},
-                                                       {"motor_ppm", 100, -10000, 10000}},
-                                        .manoeuvre = TellingManoeuvre::none(),
-                                        .place = EffectPlace::lines};
+constexpr EffectDescription kClockError = described(
+    "clock_error", "period *= 1 + e",
+    {{"compass_ppm", 100, -10000, 10000}, {"imu_ppm", 100, -10000, 10000}, {"motor_ppm", 100, -10000, 10000}},
+    TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// The clocks of compass and cards run slow; the receiver's is that of its satellites.
 struct ClockError final : EffectOf<ClockError, kClockError> {
   void clock(Instrument of, double& slow_ppm) override {
@@ -57,14 +52,12 @@ struct ClockError final : EffectOf<ClockError, kClockError> {
   }
 };
 
-constexpr EffectDescription kDroppedFrames{.name = "dropped_frames",
-                                           .equation = "lost with probability p",
-                                           .parameters = {{"compass_probability", 0.02, 0, 1},
-                                                          {"imu_probability", 0.02, 0, 1},
-                                                          {"gps_probability", 0.02, 0, 1},
-                                                          {"motor_probability", 0.02, 0, 1}},
-                                           .manoeuvre = TellingManoeuvre::none(),
-                                           .place = EffectPlace::lines};
+constexpr EffectDescription kDroppedFrames = described("dropped_frames", "lost with probability p",
+                                                       {{"compass_probability", 0.02, 0, 1},
+                                                        {"imu_probability", 0.02, 0, 1},
+                                                        {"gps_probability", 0.02, 0, 1},
+                                                        {"motor_probability", 0.02, 0, 1}},
+                                                       TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Frames are lost on their way to the host.
 struct DroppedFrames final : OnEachLine<DroppedFrames, kDroppedFrames> {
   void line(Instrument of, double, Transmission& way) override {
@@ -72,25 +65,21 @@ struct DroppedFrames final : OnEachLine<DroppedFrames, kDroppedFrames> {
   }
 };
 
-constexpr EffectDescription kNoiseLevel{
-    .name = "noise_level",
-    .equation = "sigma *= 1 + k",
-    .parameters = {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
-    .manoeuvre = TellingManoeuvre::none(),
-    .place = EffectPlace::lines};
+constexpr EffectDescription kNoiseLevel =
+    described("noise_level", "sigma *= 1 + k",
+              {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
+              TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Every instrument's noise is stronger.
 struct NoiseLevel final : EffectOf<NoiseLevel, kNoiseLevel> {
   void noise(Instrument of, double& factor) override { factor *= 1 + p_[static_cast<std::size_t>(of)]; }
 };
 
-constexpr EffectDescription kRepeatedFrames{.name = "repeated_frames",
-                                            .equation = "twice with probability p",
-                                            .parameters = {{"compass_probability", 0.02, 0, 1},
-                                                           {"imu_probability", 0.02, 0, 1},
-                                                           {"gps_probability", 0.02, 0, 1},
-                                                           {"motor_probability", 0.02, 0, 1}},
-                                            .manoeuvre = TellingManoeuvre::none(),
-                                            .place = EffectPlace::lines};
+constexpr EffectDescription kRepeatedFrames = described("repeated_frames", "twice with probability p",
+                                                        {{"compass_probability", 0.02, 0, 1},
+                                                         {"imu_probability", 0.02, 0, 1},
+                                                         {"gps_probability", 0.02, 0, 1},
+                                                         {"motor_probability", 0.02, 0, 1}},
+                                                        TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Frames come twice.
 struct RepeatedFrames final : OnEachLine<RepeatedFrames, kRepeatedFrames> {
   void line(Instrument of, double, Transmission& way) override {
@@ -98,11 +87,9 @@ struct RepeatedFrames final : OnEachLine<RepeatedFrames, kRepeatedFrames> {
   }
 };
 
-constexpr EffectDescription kStalls{.name = "stalls",
-                                    .equation = "at random instants, so many a minute",
-                                    .parameters = {{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}},
-                                    .manoeuvre = TellingManoeuvre::none(),
-                                    .place = EffectPlace::lines};
+constexpr EffectDescription kStalls = described("stalls", "at random instants, so many a minute",
+                                                {{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}},
+                                                TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// The host takes nothing from a line for a while, then all at once; each line on its own.
 struct Stalls final : OnEachLine<Stalls, kStalls> {
   void line(Instrument of, double time_s, Transmission& way) override {
