@@ -30,7 +30,6 @@
 #include "gap/data/mission.h"
 #include "gap/watch/live_records.h"
 #include "gap/watch/state_file.h"
-#include "gap/watch/watched_recording.h"
 #include "record/recording.h"
 #include "report/gap_watch_report.h"
 

@@ -16,7 +16,6 @@
 #include "web/peer.h"
 
 namespace navcal::web {
-namespace {
 
 /// One WebSocket client: reads its messages, and writes what waits for it, one message after the other.
 class WebSocketSession final : public PeerLink, public std::enable_shared_from_this<WebSocketSession> {
@@ -147,12 +146,8 @@ void WebSocketSession::close(std::string_view reason) {
       stream_.get_executor(), [self = shared_from_this()] { return self->write_queue(); }, asio::detached);
 }
 
-}  // namespace
-
-namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-using ports::kNoThrow;
 
 namespace {
 

@@ -8,7 +8,6 @@
 
 #include "autopilot/thrust_curve.h"
 #include "sim/layout/added_mass.h"
-#include "sim/layout/damping.h"
 #include "sim/layout/layout_vehicle.h"
 #include "sim/layout/rigid_body.h"
 
