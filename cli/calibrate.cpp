@@ -10,7 +10,7 @@
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/result_file.h"
-#include "cli/window_options.h"
+#include "cli/shared_options.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
 #include "report/calibrate_report.h"

@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "base/world_magnetic_model.h"
 #include "cli/commands.h"
-#include "cli/place_options.h"
+#include "cli/shared_options.h"
 
 namespace navcal::cli {
 namespace {

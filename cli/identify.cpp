@@ -10,7 +10,7 @@
 #include "cli/exit_statuses.h"
 #include "cli/recorded_motions.h"
 #include "cli/result_file.h"
-#include "cli/window_options.h"
+#include "cli/shared_options.h"
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "identify/answer/identification.h"

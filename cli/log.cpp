@@ -9,7 +9,6 @@
 
 #include "base/printable.h"
 #include "cli/commands.h"
-#include "cli/log_run.h"
 #include "cli/result_file.h"
 #include "record/export/export.h"
 #include "record/log/log_info.h"

@@ -11,7 +11,6 @@
 
 #include "analysis/import/import_log.h"
 #include "cli/commands.h"
-#include "cli/log_run.h"
 #include "cli/result_file.h"
 #include "protocols/device_types.h"
 

@@ -15,7 +15,6 @@
 #include "analysis/log_import.h"
 #include "base/printable.h"
 #include "cli/commands.h"
-#include "cli/log_run.h"
 #include "cli/result_file.h"
 #include "record/recording.h"
 #include "web/viewer.h"

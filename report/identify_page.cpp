@@ -5,7 +5,6 @@
 
 #include "report/html_page.h"
 #include "report/identify_report.h"
-#include "report/identify_words.h"
 #include "report/svg_plot.h"
 
 namespace navcal::report {

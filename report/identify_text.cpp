@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "report/identify_report.h"
-#include "report/identify_words.h"
 
 namespace navcal::report {
 

@@ -13,7 +13,6 @@
 
 #include "base/descriptor.h"
 #include "web/hub.h"
-#include "web/player.h"
 
 namespace navcal::web {
 

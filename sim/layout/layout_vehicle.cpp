@@ -7,8 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/layout/added_mass.h"
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 #include "sim/layout/vector_of.h"
 
 namespace navcal::sim {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 #include "sim/layout/vector_of.h"
 
 namespace navcal::sim {

@@ -10,8 +10,7 @@
 
 #include "autopilot/controllability.h"
 #include "base/angles.h"
-#include "sim/layout/added_mass.h"
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim {
 namespace {
