@@ -12,6 +12,7 @@
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 
 namespace navcal::cli {
@@ -25,15 +26,13 @@ struct FleetTrialArguments {
 void record_fleet(const FleetTrialArguments& arguments) {
   expect_folder_of(arguments.truth);
   const validation::FleetCase fleet = validation::drawn_fleet(arguments.options);
-  try {
+  with_exit_statuses([&] {
     const base::Interruptible interruptible;
     analysis::Progress progress("fleet trial record");
     validation::write_fleet(fleet, arguments.folder, base::threads_or_cores(),
                             [&](double done) { progress.show(done); });
     write_result(arguments.truth, validation::truth_text(fleet));
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, error.what());
-  }
+  });
   fmt::print("{} missions of {} vehicles in {}, truth in {}\n",
              arguments.options.vehicles * arguments.options.days, arguments.options.vehicles, arguments.folder,
              arguments.truth);

@@ -219,14 +219,10 @@ void find_gap(const GapCommandOptions& options) {
   with_exit_statuses([&] {
     expect_instruments(options.without);
     const std::vector<ExportFile> exports = expect_outputs(options);
-    try {
-      const gap::Diagnosis diagnosis =
-          options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
-      write_models(diagnosis, options, exports);
-      if (options.saved.empty()) write_answers(diagnosis, options);
-    } catch (const report::BadDiagnosis& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    }
+    const gap::Diagnosis diagnosis =
+        options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
+    write_models(diagnosis, options, exports);
+    if (options.saved.empty()) write_answers(diagnosis, options);
   });
 }
 

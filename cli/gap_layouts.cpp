@@ -11,6 +11,7 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 #include "report/layout_score_report.h"
 #include "validation/layout_recordings.h"
@@ -29,49 +30,42 @@ struct GapLayoutsRecordArguments {
 
 void record_layouts(GapLayoutsRecordArguments arguments) {
   validation::LayoutRecordingsOptions& options = arguments.options;
-  try {
-    for (const std::string& file : arguments.layouts)
-      options.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
-    expect_folder_of(options.truth);
-    const base::Interruptible interruptible;
-    analysis::Progress progress("gap layouts record");
-    validation::write_layout_recordings(options, [&](double share) { progress.show(share); });
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+  with_exit_statuses(
+      [&] {
+        for (const std::string& file : arguments.layouts)
+          options.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
+        expect_folder_of(options.truth);
+        const base::Interruptible interruptible;
+        analysis::Progress progress("gap layouts record");
+        validation::write_layout_recordings(options, [&](double share) { progress.show(share); });
+      },
+      analysis::Exit::bad_input);
   fmt::print("{} recordings in {}, truth in {}\n",
              options.vehicles * options.nominal + validation::kRecordingsPerCase * options.cases,
              options.folder.string(), options.truth.string());
 }
 
-void score_layouts(const GapLayoutsScoreArguments& arguments) {
-  const auto named = [](const std::string& file, const auto& read) {
-    try {
-      return read(read_file(file));
-    } catch (const std::system_error& error) {
-      throw analysis::Failure(analysis::Exit::failed, error.what());
-    } catch (const std::runtime_error& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
-    }
-  };
-  const auto truths = named(arguments.truth, validation::read_layout_truths);
-  const auto answers = named(arguments.answers, validation::read_layout_answers);
-  validation::LayoutScores scores;
+/// What `work` gives; what it does not understand is the fault of a file.
+template <class Work>
+auto blaming(const std::string& file, const Work& work) {
   try {
-    scores = validation::layout_scores(truths, answers);
+    return work();
   } catch (const std::runtime_error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, arguments.answers + ": " + error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
   }
+}
+
+void score_layouts(const GapLayoutsScoreArguments& arguments) {
+  const std::string truth = read_file(arguments.truth);
+  const auto truths = blaming(arguments.truth, [&] { return validation::read_layout_truths(truth); });
+  const std::string answer = read_file(arguments.answers);
+  const validation::LayoutScores scores = blaming(arguments.answers, [&] {
+    return validation::layout_scores(truths, validation::read_layout_answers(answer));
+  });
   if (arguments.json != "-") fmt::print("{}", report::layout_score_text(scores));
   if (arguments.json == "-") fmt::print("{}", report::layout_score_json(scores));
-  if (arguments.json.empty() || arguments.json == "-") return;
-  try {
+  if (!arguments.json.empty() && arguments.json != "-")
     write_result(arguments.json, report::layout_score_json(scores));
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
 }
 
 void add_record(CLI::App& layouts) {

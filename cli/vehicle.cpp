@@ -54,12 +54,7 @@ void check_recordings(const VehicleCheckArguments& arguments) {
 void check_layout(const VehicleCheckArguments& arguments) {
   if (!arguments.files.empty())
     return with_exit_statuses([&] { check_recordings(arguments); }, analysis::Exit::bad_input);
-  config::Layout layout;
-  try {
-    layout = config::load_layout(arguments.layout);
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  }
+  const config::Layout layout = config::load_layout(arguments.layout);
   const sim::Assessment found = sim::assess(layout);
   std::fputs(
       (arguments.json ? report::vehicle_check_json(layout, found) : report::vehicle_check_text(layout, found))
