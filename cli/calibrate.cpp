@@ -10,7 +10,7 @@
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/result_file.h"
-#include "cli/window_options.h"
+#include "cli/shared_options.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
 #include "report/calibrate_report.h"
@@ -71,8 +71,8 @@ void add_calibrate(CLI::App& app) {
   command->add_option("--config", options->config, "configuration to use instead of the recording's own");
   add_window(*command, *options);
   command->add_flag("--json", options->json, "one JSON object instead of text");
-  command->add_option("--report", options->report, "page to write, with pictures; needs no other file")
-      ->option_text("FILE.html");
+  add_valued(command, "--report", "FILE.html", options->report,
+             "page to write, with pictures; needs no other file");
   command->footer("Example: navcal calibrate --report dive.html dive.mcap");
   command->callback([options] { calibrate(*options); });
 }

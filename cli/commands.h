@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "analysis/failure.h"
+#include "cli/option_kinds.h"
 
 namespace navcal::cli {
 
@@ -50,6 +51,21 @@ void add_research(CLI::App& app);
 // Not listed: these names are kept for scripts; navcal research lists them.
 void add_thesis(CLI::App& app);
 void add_validate_runs(CLI::App& app);
+
+// Subcommands of these, each in a file of its own: of navcal gap,
+void add_gap_next(CLI::App& gap);
+void add_gap_watch(CLI::App& gap);
+void add_gap_layouts(CLI::App& gap);
+void add_gap_trial(CLI::App& gap);
+// of navcal log,
+void add_log_import(CLI::App& log);
+void add_log_surfacings(CLI::App& log);
+/// those that ask a running navcald: list, fetch, start, stop and select,
+void add_log_control(CLI::App& log);
+// of navcal fleet.
+void add_fleet_submit(CLI::App& fleet);
+/// `fleet trial record` and `fleet trial score`.
+void add_fleet_trial(CLI::App& parent);
 
 /// All of them (written by cli/command_table.cmake).
 void add_commands(CLI::App& parent);

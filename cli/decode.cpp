@@ -134,12 +134,10 @@ void add_decode(CLI::App& app) {
     if (device.protocol != Protocol::described) listed.emplace_back(device.name);
   }
 
-  command
-      ->add_option("--protocol", arguments->protocol,
-                   fmt::format("Protocol of the device: {}; with --port the default is the one in the recording",
-                               fmt::join(listed, ", ")))
-      ->check(CLI::IsMember(names))
-      ->option_text("NAME");
+  add_valued(command, "--protocol", "NAME", arguments->protocol,
+             fmt::format("Protocol of the device: {}; with --port the default is the one in the recording",
+                         fmt::join(listed, ", ")))
+      ->check(CLI::IsMember(names));
   command
       ->add_option("--device", arguments->device,
                    "File that describes the device; with --port the default is the description in the log")

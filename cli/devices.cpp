@@ -25,21 +25,6 @@
 namespace navcal::cli {
 namespace {
 
-/// Bytes of one device: a file of them (`-` is standard input), or one port of a capture or log.
-class DeviceCapture {
- public:
-  /// `port` may be empty when the file is no recording, or one with a single port. Throws Failure.
-  DeviceCapture(const std::string& file, const std::string& port);
-
-  /// The next bytes, with their arrival where the file has it; empty at the end.
-  analysis::TimedBytes next();
-  void show(analysis::Progress& progress) const;
-
- private:
-  std::unique_ptr<PortBytes> port_;
-  std::unique_ptr<Input> input_;
-};
-
 bool is_recording(const std::string& file) {
   std::array<char, 16> begin{};
   std::ifstream in(file, std::ios::binary);
@@ -58,27 +43,36 @@ std::string only_port(const std::string& file) {
   throw analysis::Failure(analysis::Exit::usage, file + ": --port NAME says which of its ports: " + names);
 }
 
-DeviceCapture::DeviceCapture(const std::string& file, const std::string& port) {
-  if (!port.empty() || (file != "-" && is_recording(file))) {
-    port_ = std::make_unique<PortBytes>(file, port.empty() ? only_port(file) : port);
-  } else {
-    input_ = std::make_unique<Input>(file);
+/// Bytes of one device: a file of them (`-` is standard input), or one port of a capture or log.
+class DeviceCapture {
+ public:
+  /// `port` may be empty when the file is no recording, or one with a single port. Throws Failure.
+  DeviceCapture(const std::string& file, const std::string& port) {
+    if (!port.empty() || (file != "-" && is_recording(file))) {
+      port_ = std::make_unique<PortBytes>(file, port.empty() ? only_port(file) : port);
+    } else {
+      input_ = std::make_unique<Input>(file);
+    }
   }
-}
 
-analysis::TimedBytes DeviceCapture::next() {
-  if (!port_) return {input_->next(), std::nullopt};
-  const protocols::Bytes bytes = port_->next();
-  return {bytes, port_->arrival_ns()};
-}
-
-void DeviceCapture::show(analysis::Progress& progress) const {
-  if (port_) {
-    port_->show(progress);
-  } else {
-    input_->show(progress);
+  /// The next bytes, with their arrival where the file has it; empty at the end.
+  analysis::TimedBytes next() {
+    if (!port_) return {input_->next(), std::nullopt};
+    const protocols::Bytes bytes = port_->next();
+    return {bytes, port_->arrival_ns()};
   }
-}
+  void show(analysis::Progress& progress) const {
+    if (port_) {
+      port_->show(progress);
+    } else {
+      input_->show(progress);
+    }
+  }
+
+ private:
+  std::unique_ptr<PortBytes> port_;
+  std::unique_ptr<Input> input_;
+};
 
 struct CheckArguments {
   std::string description, capture, port;

@@ -62,9 +62,7 @@ void add_doctor(CLI::App& app) {
   auto* command =
       app.add_subcommand("doctor", "checks this machine for obstacles to good data, and names the repairs");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("--config", arguments->configuration, "the daemon's configuration")
-      ->type_name("FILE")
-      ->capture_default_str();
+  add_defaulted(command, "--config", arguments->configuration, "the daemon's configuration")->type_name("FILE");
   command->add_flag("--json", arguments->json, "one object with all checks");
   command->add_flag(
       "--fix", arguments->fix,

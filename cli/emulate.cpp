@@ -22,9 +22,8 @@
 #include "analysis/emulate_session.h"
 #include "base/interruptible.h"
 #include "cli/commands.h"
-#include "cli/effect_options.h"
-#include "cli/place_options.h"
 #include "cli/result_file.h"
+#include "cli/shared_options.h"
 #include "config/load.h"
 #include "config/mission_file.h"
 #include "devices/instrument_model.h"
@@ -192,35 +191,27 @@ void add_vehicle(CLI::App* command, analysis::EmulateArguments& arguments) {
           "the reference vehicle. A layout obeys the lines $PNCAO at DIR/outputs instead of a motor card")
       ->expected(0, 1)
       ->option_text("[FILE.toml]");
-  command
-      ->add_option("--battery", arguments.battery_Ah,
-                   "a battery of 3.7 Ah with this charge at first; its gauge sends NMEA sentences at DIR/battery")
-      ->check(CLI::Range(0.0, 3.7))
-      ->option_text("AH");
+  add_valued(command, "--battery", "AH", arguments.battery_Ah,
+             "a battery of 3.7 Ah with this charge at first; its gauge sends NMEA sentences at DIR/battery")
+      ->check(CLI::Range(0.0, 3.7));
   CLI::Option* const floor =
-      command
-          ->add_option("--floor-depth", arguments.floor_depth_m,
-                       "depth of a sea floor, also for Doppler logs; an altimeter sends NMEA sentences at\n"
-                       "DIR/altimeter. Without it Doppler logs have a floor at 20 m")
-          ->check(CLI::Range(0.0, 11000.0))
-          ->option_text("METRES");
-  command
-      ->add_option("--floor-slope", arguments.floor_slope,
-                   "how much deeper that floor is for each metre north and east of the start")
+      add_valued(command, "--floor-depth", "METRES", arguments.floor_depth_m,
+                 "depth of a sea floor, also for Doppler logs; an altimeter sends NMEA sentences at\n"
+                 "DIR/altimeter. Without it Doppler logs have a floor at 20 m")
+          ->check(CLI::Range(0.0, 11000.0));
+  add_valued(command, "--floor-slope", "NORTH EAST [0 0]", arguments.floor_slope,
+             "how much deeper that floor is for each metre north and east of the start")
       ->expected(2)
       ->check(CLI::Range(-10.0, 10.0))
-      ->option_text("NORTH EAST [0 0]")
       ->needs(floor);
-  command->add_option("--truth", arguments.truth, "the true motion, 100 rows a second; complete when it ends")
-      ->option_text("FILE.csv");
+  add_valued(command, "--truth", "FILE.csv", arguments.truth,
+             "the true motion, 100 rows a second; complete when it ends");
 }
 
 void add_departures(CLI::App* command, analysis::EmulateArguments& arguments) {
   add_effect_options(command, arguments.effects, arguments.effects_file);
-  command
-      ->add_option("--config", arguments.config,
-                   "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments")
-      ->option_text("FILE.toml");
+  add_valued(command, "--config", "FILE.toml", arguments.config,
+             "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments");
   command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
 }
 
@@ -277,26 +268,23 @@ void add_emulate(CLI::App& app) {
   add_departures(command, *arguments);
   command->add_option("--seconds", arguments->seconds, "stop after this time; 0: never")
       ->check(CLI::Range(0.0, 1e9));
-  command->add_option("--seed", arguments->seed, "seed of all noise and biases")->capture_default_str();
-  command
-      ->add_option("--gps", arguments->gps,
-                   "messages of the receiver: ha (Ha and Ea), ea (Ea only), or nmea sentences")
-      ->transform(CLI::CheckedTransformer(receivers))
-      ->option_text("ea|ha|nmea");  // the library would print the enumeration's values, as characters
+  add_defaulted(command, "--seed", arguments->seed, "seed of all noise and biases");
+  add_valued(command, "--gps", "ea|ha|nmea", arguments->gps,
+             "messages of the receiver: ha (Ha and Ea), ea (Ea only), or nmea sentences")
+      ->transform(
+          CLI::CheckedTransformer(receivers));  // the library would print the enumeration's values, as characters
   add_plans(command, "--device", arguments->devices, &analysis::parse_emulated_device,
             "PORT=PROTOCOL: a device of this protocol, as delivered, at DIR/PORT, in the place of the vehicle's\n"
             "own or beside them: " +
                 protocol_names() + "; repeatable");
-  command->add_option("--compass-baud", arguments->compass_baud, "line speed of the compass")
-      ->capture_default_str();
+  add_defaulted(command, "--compass-baud", arguments->compass_baud, "line speed of the compass");
   command
       ->add_option("--imu-ppm", arguments->imu_ppm,
                    "excess length of the card's second, ppm (default: drawn by the seed)")
       ->check(CLI::Range(-1e4, 1e4));
   add_clock_option(command, arguments->clocks);
   add_place_and_field(command, arguments->where);
-  command->add_option("--date", arguments->where.date, "date for the field model; default: today")
-      ->option_text("YYYY-MM-DD");
+  add_valued(command, "--date", "YYYY-MM-DD", arguments->where.date, "date for the field model; default: today");
   command->add_option("--sent-log", arguments->sent_log, "capture of all bytes on the lines, in both directions");
   add_misbehaviour(command, *arguments);
   command->footer(

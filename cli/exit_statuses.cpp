@@ -5,6 +5,7 @@
 
 #include "config/error.h"
 #include "record/recording.h"
+#include "report/gap_report.h"
 #include "runs/run.h"
 #include "sim/path.h"
 
@@ -20,7 +21,8 @@ bool is_one_of(const std::exception& error) {
 
 analysis::Exit exit_status_of(const std::exception& error) {
   if (const auto* const failure = dynamic_cast<const analysis::Failure*>(&error)) return failure->status();
-  const bool is_bad_input = is_one_of<record::BadRecording, config::Error, runs::BadRun, sim::BadPath>(error);
+  const bool is_bad_input =
+      is_one_of<record::BadRecording, config::Error, report::BadDiagnosis, runs::BadRun, sim::BadPath>(error);
   return is_bad_input ? analysis::Exit::bad_input : analysis::Exit::failed;
 }
 

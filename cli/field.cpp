@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "base/world_magnetic_model.h"
 #include "cli/commands.h"
-#include "cli/place_options.h"
+#include "cli/shared_options.h"
 
 namespace navcal::cli {
 namespace {
@@ -52,10 +52,10 @@ void add_field(CLI::App& app) {
   const auto options = std::make_shared<FieldCommandOptions>();
   auto* const command =
       app.add_subcommand("field", "Earth's magnetic field at a place, as lines for navcald.toml");
-  command->add_option("--place", options->where.place, "degrees north and east, and metres above the ellipsoid")
-      ->option_text("LAT,LON[,HEIGHT_M]")
+  add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", options->where.place,
+             "degrees north and east, and metres above the ellipsoid")
       ->required();
-  command->add_option("--date", options->where.date, "date; default: today")->option_text("YYYY-MM-DD");
+  add_valued(command, "--date", "YYYY-MM-DD", options->where.date, "date; default: today");
   command->add_flag("--json", options->json, "one JSON object instead of lines for the configuration");
   command->footer(
       "World Magnetic Model 2025. The model does not contain rock, harbours and ships: in a harbour a compass may "

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,7 +13,6 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
-#include "cli/fleet_commands.h"
 #include "cli/result_file.h"
 #include "fleet/causes/answer_report.h"
 #include "fleet/causes/read_missions.h"
@@ -131,25 +129,21 @@ void add_fleet_plan(CLI::App& parent) {
   const auto request = std::make_shared<fleet::PlanRequest>();
   command->add_option("FOLDER", request->recordings, "folder with recordings (.cap, .mcap), at any depth")
       ->required();
-  command->add_option("-o,--output", request->plan, "folder of the plan")->option_text("PLAN")->required();
-  command
-      ->add_option(
-          "--vehicle", request->vehicle,
-          "the nominal vehicle of all; default: vehicle.toml beside the recording or in a folder above it, "
-          "else the reference vehicle")
-      ->option_text("FILE.toml");
-  command->add_option("--config", request->config, "configuration of all recordings, instead of their own")
-      ->option_text("FILE.toml");
+  add_valued(command, "-o,--output", "PLAN", request->plan, "folder of the plan")->required();
+  add_valued(command, "--vehicle", "FILE.toml", request->vehicle,
+             "the nominal vehicle of all; default: vehicle.toml beside the recording or in a folder above it, "
+             "else the reference vehicle");
+  add_valued(command, "--config", "FILE.toml", request->config,
+             "configuration of all recordings, instead of their own");
   std::vector<std::string> names;
   for (const fleet::Job& job : fleet::jobs()) names.emplace_back(job.name);
   command->add_option("--job", request->jobs, "what to do with each recording; several with commas")
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->capture_default_str();
-  command->add_option("--bank", request->bank_missions, "number of simulated null missions of each bank")
-      ->check(CLI::Range(2, 10'000))
-      ->capture_default_str();
-  command->add_option("--seed", request->bank_seed, "seed of their noise and tolerances")->capture_default_str();
+  add_number(command, "--bank", 2, 10'000, request->bank_missions,
+             "number of simulated null missions of each bank");
+  add_defaulted(command, "--seed", request->bank_seed, "seed of their noise and tolerances");
   command->footer(
       "A recording is known by its content: one that was moved or renamed is not done again.\n\n"
       "Example: navcal fleet plan recordings/ -o plan/ --job gap,calibrate");
@@ -165,12 +159,8 @@ void add_fleet_run(CLI::App& parent) {
   auto* command = parent.add_subcommand("run", "do tasks of a plan; those that have a result are not done again");
   const auto options = std::make_shared<Options>();
   command->add_option("PLAN", options->plan, "folder of the plan")->required();
-  command->add_option("--task", options->tasks, "numbers of tasks: 7, or 3,5,7, or 10-20")
-      ->option_text("K")
-      ->required();
-  command->add_option("--threads", options->threads, "threads of a task; they change no result")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_valued(command, "--task", "K", options->tasks, "numbers of tasks: 7, or 3,5,7, or 10-20")->required();
+  add_number(command, "--threads", 1, 1024, options->threads, "threads of a task; they change no result");
   command->add_flag("--again", options->again, "do tasks once more that failed");
   command->footer(
       "The exit status is 0 when each task has a result, 1 when one has none. An error that the recording causes "
@@ -190,10 +180,9 @@ void add_fleet_causes(CLI::App& parent) {
       "they began");
   const auto options = std::make_shared<CausesOptions>();
   command->add_option("PLAN", options->plan, "folder of the plan, with results of the job evidence")->required();
-  command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
-  command->add_option("--report", options->page, "page with pictures; needs no other file")
-      ->option_text("FILE.html");
+  add_valued(command, "--json", "FILE|-", options->json,
+             "the answer as one JSON object; - is standard output, without text");
+  add_valued(command, "--report", "FILE.html", options->page, "page with pictures; needs no other file");
   command->add_option("--threads", options->threads, "threads; default: one for each core; they change no result")
       ->check(CLI::Range(1, 1024));
   command->footer(
@@ -213,10 +202,8 @@ void add_fleet_merge(CLI::App& parent) {
   auto* command = parent.add_subcommand("merge", "all results of a plan in one SQLite file");
   const auto options = std::make_shared<Options>();
   command->add_option("PLAN", options->plan, "folder of the plan")->required();
-  command->add_option("-o,--output", options->output, "the file; default: PLAN/results.sqlite")
-      ->option_text("FILE.sqlite");
-  command->add_option("--report", options->page, "page with tables; needs no other file")
-      ->option_text("FILE.html");
+  add_valued(command, "-o,--output", "FILE.sqlite", options->output, "the file; default: PLAN/results.sqlite");
+  add_valued(command, "--report", "FILE.html", options->page, "page with tables; needs no other file");
   command->footer(
       "The same results give the same bytes, in whatever order and wherever the tasks were done.\n\n"
       "Example: navcal fleet merge plan/ --report fleet.html");

@@ -14,7 +14,7 @@
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "base/printable.h"
-#include "cli/fleet_commands.h"
+#include "cli/commands.h"
 #include "cli/result_file.h"
 #include "fleet/plan.h"
 #include "fleet/slurm.h"
@@ -124,32 +124,23 @@ void add_fleet_submit(CLI::App& fleet) {
       ->check(CLI::Range(1, 1024));
   command->add_flag("--again", options->again, "do tasks once more that failed");
   const auto* const by_slurm = "Slurm";
-  command
-      ->add_option("--sbatch", options->by_slurm.options,
-                   "an option for sbatch, such as --sbatch=--partition=long; repeatable")
-      ->option_text("OPTION")
-      ->allow_extra_args(false)
+  add_repeatable(command, "--sbatch", "OPTION", options->by_slurm.options,
+                 "an option for sbatch, such as --sbatch=--partition=long; repeatable")
       ->needs(slurm)
       ->group(by_slurm);
-  command->add_option("--chunk", options->by_slurm.chunk, "tasks of one array element, one after the other")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str()
+  add_number(command, "--chunk", 1, 100'000, options->by_slurm.chunk,
+             "tasks of one array element, one after the other")
       ->needs(slurm)
       ->group(by_slurm);
-  command
-      ->add_option("--attempts", options->by_slurm.attempts,
-                   "arrays in which a task may end without a result, beyond what Slurm requeues by itself")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str()
+  add_number(command, "--attempts", 1, 100, options->by_slurm.attempts,
+             "arrays in which a task may end without a result, beyond what Slurm requeues by itself")
       ->needs(slurm)
       ->group(by_slurm);
-  command->add_option("--poll", options->poll_s, "seconds between two looks at the queue")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->capture_default_str()
+  add_number(command, "--poll", 0.1, 3600.0, options->poll_s, "seconds between two looks at the queue")
       ->needs(slurm)
       ->group(by_slurm);
-  command->add_option("--program", options->by_slurm.program, "navcal as the nodes see it; default: this program")
-      ->option_text("FILE")
+  add_valued(command, "--program", "FILE", options->by_slurm.program,
+             "navcal as the nodes see it; default: this program")
       ->needs(slurm)
       ->group(by_slurm);
   command->footer(

@@ -11,7 +11,8 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
-#include "cli/fleet_commands.h"
+#include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 
 namespace navcal::cli {
@@ -25,15 +26,13 @@ struct FleetTrialArguments {
 void record_fleet(const FleetTrialArguments& arguments) {
   expect_folder_of(arguments.truth);
   const validation::FleetCase fleet = validation::drawn_fleet(arguments.options);
-  try {
+  with_exit_statuses([&] {
     const base::Interruptible interruptible;
     analysis::Progress progress("fleet trial record");
     validation::write_fleet(fleet, arguments.folder, base::threads_or_cores(),
                             [&](double done) { progress.show(done); });
     write_result(arguments.truth, validation::truth_text(fleet));
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, error.what());
-  }
+  });
   fmt::print("{} missions of {} vehicles in {}, truth in {}\n",
              arguments.options.vehicles * arguments.options.days, arguments.options.vehicles, arguments.folder,
              arguments.truth);
@@ -67,33 +66,23 @@ void add_fleet_trial(CLI::App& parent) {
   validation::FleetTrialOptions& options = arguments->options;
 
   auto* record = trial->add_subcommand("record", "missions of a fleet, with the truth apart");
-  record->add_option("-o,--output", arguments->folder, "folder for the missions; a new or an empty one")
-      ->option_text("DIR")
+  add_valued(record, "-o,--output", "DIR", arguments->folder, "folder for the missions; a new or an empty one")
       ->required();
-  record->add_option("--truth", arguments->truth, "file for the truth")->option_text("FILE.json")->required();
-  record->add_option("--seed", options.seed, "seed of vehicles, causes, days and noise")->capture_default_str();
-  record->add_option("--vehicles", options.vehicles, "number of vehicles")
-      ->check(CLI::Range(1, 99))
-      ->capture_default_str();
-  record->add_option("--days", options.days, "number of days; each vehicle sails one mission on each")
-      ->check(CLI::Range(1, 99))
-      ->capture_default_str();
+  add_valued(record, "--truth", "FILE.json", arguments->truth, "file for the truth")->required();
+  add_defaulted(record, "--seed", options.seed, "seed of vehicles, causes, days and noise");
+  add_number(record, "--vehicles", 1, 99, options.vehicles, "number of vehicles");
+  add_number(record, "--days", 1, 99, options.days, "number of days; each vehicle sails one mission on each");
   record->add_option("--minutes", options.minutes, "length of a mission: 3 or 10")
       ->check(CLI::IsMember({3, 10}))
       ->capture_default_str();
-  record->add_option("--strength", options.strength, "strength of the causes, typical values")
-      ->check(CLI::Range(0.0, 5.0))
-      ->capture_default_str();
-  record->add_option("--weak", options.weak, "strength of the weak cause of the design; 0: none")
-      ->check(CLI::Range(0.0, 5.0))
-      ->capture_default_str();
+  add_number(record, "--strength", 0.0, 5.0, options.strength, "strength of the causes, typical values");
+  add_number(record, "--weak", 0.0, 5.0, options.weak, "strength of the weak cause of the design; 0: none");
   record->footer("Example: navcal research fleet-trial record -o recordings/ --truth truth.json --seed 7");
   record->callback([arguments] { record_fleet(*arguments); });
 
   auto* score = trial->add_subcommand("score", "compares what navcal fleet causes --json wrote with the truth");
   score->add_option("ANSWER", arguments->answer, "file of navcal fleet causes --json")->required();
-  score->add_option("--truth", arguments->truth, "the truth that was written with the missions")
-      ->option_text("FILE.json")
+  add_valued(score, "--truth", "FILE.json", arguments->truth, "the truth that was written with the missions")
       ->required();
   score->footer("Example: navcal research fleet-trial score answer.json --truth truth.json");
   score->callback([arguments] { score_fleet(*arguments); });

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "analysis/chosen_vehicle.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
-#include "cli/gap_export.h"
-#include "cli/gap_layouts.h"
-#include "cli/gap_next.h"
 #include "cli/gap_request.h"
-#include "cli/gap_trial.h"
-#include "cli/gap_watch.h"
-#include "cli/place_options.h"
 #include "cli/result_file.h"
+#include "cli/shared_options.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
@@ -29,11 +29,88 @@
 #include "record/recording.h"
 #include "record/seen_recordings.h"
 #include "report/gap_report.h"
+#include "report/simulators/transfer.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 
 namespace navcal::cli {
 namespace {
+
+/// A simulator for which found effects are wanted, and the file for it.
+struct ExportFile {
+  report::Simulator simulator;
+  std::filesystem::path file;
+};
+
+/// Options --export and --overwrite of `navcal gap`.
+struct ExportOptions {
+  std::vector<std::string> wanted;  ///< as given: "sitl", "sitl=found.parm"
+  bool overwrite = false;
+};
+
+namespace fs = std::filesystem;
+
+std::string known_simulators() {
+  std::vector<std::string_view> names;
+  for (const auto simulator : report::kSimulators) names.push_back(report::name_of(simulator));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+ExportFile export_file(const std::string& wanted, const fs::path& origin) {
+  const std::size_t equals = wanted.find('=');
+  const std::string name = wanted.substr(0, equals);
+  const auto simulator = report::simulator_named(name);
+  if (!simulator) {
+    throw analysis::Failure(
+        analysis::Exit::usage,
+        fmt::format("--export {}: there is no simulator {}; known are {}", wanted, name, known_simulators()));
+  }
+  if (equals == std::string::npos)
+    return {*simulator, origin.stem().string() + std::string(report::ending_of(*simulator))};
+  const std::string file = wanted.substr(equals + 1);
+  if (file.empty() || file == "-")
+    throw analysis::Failure(analysis::Exit::usage, fmt::format("--export {}: name a file after =", wanted));
+  return {*simulator, file};
+}
+
+void expect_no_such_file(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  throw analysis::Failure(analysis::Exit::failed,
+                          file.string() + ": the file exists and is not overwritten; --overwrite replaces it");
+}
+
+void add_export_options(CLI::App* command, ExportOptions& options) {
+  add_repeatable(command, "--export", "NAME[=FILE]", options.wanted,
+                 "the effects found, for a simulator: sitl (ArduPilot), holoocean or stonefish; without FILE it "
+                 "has the recording's name; repeatable");
+  command->add_flag("--overwrite", options.overwrite, "--export replaces files that exist");
+}
+
+/// The files that are wanted. A file that is not named has the name of `origin`, the recording or the saved
+/// diagnosis, and stands in the working folder: "a.sitl.parm" for "dives/a.cap". Throws Failure: usage for an
+/// unknown simulator, failed for a file that exists and may not be overwritten.
+std::vector<ExportFile> export_files(const ExportOptions& options, const fs::path& origin) {
+  std::vector<ExportFile> files;
+  for (const std::string& wanted : options.wanted) files.push_back(export_file(wanted, origin));
+  for (const auto& [simulator, file] : files) {
+    expect_folder_of(file);
+    if (!options.overwrite) expect_no_such_file(file);
+  }
+  return files;
+}
+
+/// Writes the files, and what each contains to standard error. Throws Failure, as export_files(), for a file that
+/// has come into being meanwhile, and std::system_error.
+void write_exports(const std::vector<ExportFile>& files, const ExportOptions& options,
+                   const report::CorrectedModel& model) {
+  for (const auto& [simulator, file] : files) {
+    const report::SimulatorFile content = report::simulator_file(simulator, model);
+    if (!options.overwrite) expect_no_such_file(file);
+    write_result(file, content.text);
+    std::fputs(fmt::format("navcal: {}: {}\n", file.string(), content.summary).c_str(), stderr);
+  }
+}
 
 struct GapCommandOptions : GapRequestOptions {
   std::vector<std::string> nominals;
@@ -142,14 +219,10 @@ void find_gap(const GapCommandOptions& options) {
   with_exit_statuses([&] {
     expect_instruments(options.without);
     const std::vector<ExportFile> exports = expect_outputs(options);
-    try {
-      const gap::Diagnosis diagnosis =
-          options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
-      write_models(diagnosis, options, exports);
-      if (options.saved.empty()) write_answers(diagnosis, options);
-    } catch (const report::BadDiagnosis& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    }
+    const gap::Diagnosis diagnosis =
+        options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
+    write_models(diagnosis, options, exports);
+    if (options.saved.empty()) write_answers(diagnosis, options);
   });
 }
 
@@ -171,19 +244,14 @@ void add_gap(CLI::App& app) {
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
   add_gap_request(*command, *options);
-  command
-      ->add_option(
-          "--nominal", options->nominals,
-          "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
-          "repeatable")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
-  command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
-  command->add_option("--report", options->report, "page with pictures; needs no other file")
-      ->option_text("FILE.html");
-  command->add_option("--effects-out", source.effects_file, "the effects found, for navcal simulate --effects")
-      ->option_text("FILE.toml");
+  add_repeatable(command, "--nominal", "FILE", options->nominals,
+                 "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
+                 "repeatable");
+  add_valued(command, "--json", "FILE|-", options->json,
+             "the answer as one JSON object; - is standard output, without text");
+  add_valued(command, "--report", "FILE.html", options->report, "page with pictures; needs no other file");
+  add_valued(command, "--effects-out", "FILE.toml", source.effects_file,
+             "the effects found, for navcal simulate --effects");
   add_export_options(command, options->exports);
   command->footer(
       "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"

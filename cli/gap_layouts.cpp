@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/gap_layouts.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,8 @@
 #include "analysis/failure.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 #include "report/layout_score_report.h"
 #include "validation/layout_recordings.h"
@@ -29,92 +30,65 @@ struct GapLayoutsRecordArguments {
 
 void record_layouts(GapLayoutsRecordArguments arguments) {
   validation::LayoutRecordingsOptions& options = arguments.options;
-  try {
-    for (const std::string& file : arguments.layouts)
-      options.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
-    expect_folder_of(options.truth);
-    const base::Interruptible interruptible;
-    analysis::Progress progress("gap layouts record");
-    validation::write_layout_recordings(options, [&](double share) { progress.show(share); });
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+  with_exit_statuses(
+      [&] {
+        for (const std::string& file : arguments.layouts)
+          options.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
+        expect_folder_of(options.truth);
+        const base::Interruptible interruptible;
+        analysis::Progress progress("gap layouts record");
+        validation::write_layout_recordings(options, [&](double share) { progress.show(share); });
+      },
+      analysis::Exit::bad_input);
   fmt::print("{} recordings in {}, truth in {}\n",
              options.vehicles * options.nominal + validation::kRecordingsPerCase * options.cases,
              options.folder.string(), options.truth.string());
 }
 
-void score_layouts(const GapLayoutsScoreArguments& arguments) {
-  const auto named = [](const std::string& file, const auto& read) {
-    try {
-      return read(read_file(file));
-    } catch (const std::system_error& error) {
-      throw analysis::Failure(analysis::Exit::failed, error.what());
-    } catch (const std::runtime_error& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
-    }
-  };
-  const auto truths = named(arguments.truth, validation::read_layout_truths);
-  const auto answers = named(arguments.answers, validation::read_layout_answers);
-  validation::LayoutScores scores;
+/// What `work` gives; what it does not understand is the fault of a file.
+template <class Work>
+auto blaming(const std::string& file, const Work& work) {
   try {
-    scores = validation::layout_scores(truths, answers);
+    return work();
   } catch (const std::runtime_error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, arguments.answers + ": " + error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
   }
+}
+
+void score_layouts(const GapLayoutsScoreArguments& arguments) {
+  const std::string truth = read_file(arguments.truth);
+  const auto truths = blaming(arguments.truth, [&] { return validation::read_layout_truths(truth); });
+  const std::string answer = read_file(arguments.answers);
+  const validation::LayoutScores scores = blaming(arguments.answers, [&] {
+    return validation::layout_scores(truths, validation::read_layout_answers(answer));
+  });
   if (arguments.json != "-") fmt::print("{}", report::layout_score_text(scores));
   if (arguments.json == "-") fmt::print("{}", report::layout_score_json(scores));
-  if (arguments.json.empty() || arguments.json == "-") return;
-  try {
+  if (!arguments.json.empty() && arguments.json != "-")
     write_result(arguments.json, report::layout_score_json(scores));
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
 }
 
 void add_record(CLI::App& layouts) {
   auto* command = layouts.add_subcommand("record", "recordings by the reference simulator, with the truth apart");
   const auto arguments = std::make_shared<GapLayoutsRecordArguments>();
   auto& options = arguments->options;
-  command
-      ->add_option("--layout", arguments->layouts,
-                   "a layout whose actuators are thrusters, up to eight; repeatable, vehicles take them by turns")
-      ->required()
-      ->option_text("FILE.toml")
-      ->allow_extra_args(false);
-  command->add_option("-o,--output", options.folder, "folder for the recordings; a new or an empty one")
-      ->required()
-      ->option_text("DIR");
-  command->add_option("--truth", options.truth, "file for the truth, outside that folder")
-      ->required()
-      ->option_text("FILE.jsonl");
-  command->add_option("--seed", options.seed, "seed of vehicles, places, effects, missions and noise")
-      ->capture_default_str();
-  command->add_option("--vehicles", options.vehicles, "number of vehicles")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--nominal", options.nominal, "recordings without an effect, of each vehicle")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  command->add_option("--cases", options.cases, "number of cases; each has three recordings of one vehicle")
-      ->check(CLI::Range(0, 9999))
-      ->capture_default_str();
-  command->add_option("--minutes", options.minutes, "length of a recording")
-      ->check(CLI::Range(0.75, 60.0))
-      ->capture_default_str();
-  command
-      ->add_option("--layout-error", options.errors.layout,
-                   "how far the vehicles are off their layouts, one standard deviation")
-      ->check(CLI::Range(0.0, 0.2))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--unmodelled", options.errors.unmodelled,
-          "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell")
-      ->check(CLI::Range(0.0, 10.0))
-      ->capture_default_str();
+  add_repeatable(command, "--layout", "FILE.toml", arguments->layouts,
+                 "a layout whose actuators are thrusters, up to eight; repeatable, vehicles take them by turns")
+      ->required();
+  add_valued(command, "-o,--output", "DIR", options.folder, "folder for the recordings; a new or an empty one")
+      ->required();
+  add_valued(command, "--truth", "FILE.jsonl", options.truth, "file for the truth, outside that folder")
+      ->required();
+  add_defaulted(command, "--seed", options.seed, "seed of vehicles, places, effects, missions and noise");
+  add_number(command, "--vehicles", 1, 1000, options.vehicles, "number of vehicles");
+  add_number(command, "--nominal", 0, 100, options.nominal, "recordings without an effect, of each vehicle");
+  add_number(command, "--cases", 0, 9999, options.cases,
+             "number of cases; each has three recordings of one vehicle");
+  add_number(command, "--minutes", 0.75, 60.0, options.minutes, "length of a recording");
+  add_number(command, "--layout-error", 0.0, 0.2, options.errors.layout,
+             "how far the vehicles are off their layouts, one standard deviation");
+  add_number(command, "--unmodelled", 0.0, 10.0, options.errors.unmodelled,
+             "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell");
   command->footer(
       "Example: navcal research gap-layouts record --layout /usr/share/navcal/vehicles/bluerov2-heavy.toml -o "
       "recordings "
@@ -127,12 +101,10 @@ void add_score(CLI::App& layouts) {
   const auto arguments = std::make_shared<GapLayoutsScoreArguments>();
   command->add_option("ANSWERS", arguments->answers, "lines of JSON: {\"case\":\"0001\", what navcal gap prints}")
       ->required();
-  command->add_option("--truth", arguments->truth, "the truth that was written with the recordings")
-      ->required()
-      ->option_text("FILE.jsonl");
-  command
-      ->add_option("--json", arguments->json, "the scores as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
+  add_valued(command, "--truth", "FILE.jsonl", arguments->truth, "the truth that was written with the recordings")
+      ->required();
+  add_valued(command, "--json", "FILE|-", arguments->json,
+             "the scores as one JSON object; - is standard output, without text");
   command->footer("Example: navcal research gap-layouts score answers.jsonl --truth truth.jsonl");
   command->callback([arguments] { score_layouts(*arguments); });
 }

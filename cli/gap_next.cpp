@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/gap_next.h"
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "analysis/failure.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/gap_request.h"
 #include "cli/result_file.h"
@@ -95,16 +94,15 @@ void add_gap_next(CLI::App& gap) {
   add_gap_request(*command, options->asked);
   command->add_option("--minutes", options->minutes, "longest duration of the mission; default: 10")
       ->check(CLI::Range(1.0, 120.0));
-  command->add_option("--limits", options->limits, "limits of depth, range, speed, rate of turn and energy")
-      ->option_text("FILE.toml");
+  add_valued(command, "--limits", "FILE.toml", options->limits,
+             "limits of depth, range, speed, rate of turn and energy");
   command->add_flag("--list-limits", options->list_limits, "prints a file of limits with the defaults");
-  command->add_option("--mission-out", options->mission, "the mission, for navcal simulate, emulate and pilot")
-      ->option_text("FILE.toml");
+  add_valued(command, "--mission-out", "FILE.toml", options->mission,
+             "the mission, for navcal simulate, emulate and pilot");
   command->add_flag("--overwrite", options->overwrite, "replaces a mission file that is there already");
-  command->add_option("--json", options->json, "the plan as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
-  command->add_option("--report", options->report, "page with pictures; needs no other file")
-      ->option_text("FILE.html");
+  add_valued(command, "--json", "FILE|-", options->json,
+             "the plan as one JSON object; - is standard output, without text");
+  add_valued(command, "--report", "FILE.html", options->report, "page with pictures; needs no other file");
   command->footer(
       "The exit status is 0 also when no mission within the limits would decide.\n\n"
       "Example: navcal gap next a.cap --holdout b.cap --minutes 8 --mission-out next.toml --report next.html");

@@ -7,6 +7,7 @@
 
 #include "analysis/chosen_vehicle.h"
 #include "analysis/failure.h"
+#include "cli/option_kinds.h"
 #include "config/load.h"
 #include "gap/data/silence.h"
 #include "sim/effects/choice.h"
@@ -84,44 +85,25 @@ void add_gap_request(CLI::App& command, GapRequestOptions& options) {
              command.get_name() == "gap"
                  ? ". Without FILE: a diagnosis that --json wrote, for --export and --effects-out"
                  : "");
-  command
-      .add_option("--holdout", source.holdouts,
-                  "another mission of the same vehicle, on which the answer is judged; repeatable")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
-  command
-      .add_option("--vehicle", source.vehicle,
-                  "the nominal vehicle, if it is not the reference vehicle: a vehicle file or a layout")
-      ->option_text("FILE.toml");
-  command
-      .add_option("--config", source.config,
-                  "configuration of all recordings, instead of their own: ports and instruments")
-      ->option_text("FILE.toml");
-  command
-      .add_option("--field", options.where.field,
-                  "the Earth's field in uT (north, east, down), instead of the World Magnetic Model's where the "
-                  "fixes are")
-      ->option_text("N,E,D");
-  command.add_option("--exclude", source.excluded, "removes this effect from the library; repeatable")
-      ->option_text("NAME")
-      ->allow_extra_args(false);
-  command
-      .add_option(
-          "--without", options.without,
-          "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
-          "gyros, accelerometers, depth, gps or motor; repeatable")
-      ->option_text("NAME")
-      ->allow_extra_args(false);
+  add_repeatable(&command, "--holdout", "FILE", source.holdouts,
+                 "another mission of the same vehicle, on which the answer is judged; repeatable");
+  add_valued(&command, "--vehicle", "FILE.toml", source.vehicle,
+             "the nominal vehicle, if it is not the reference vehicle: a vehicle file or a layout");
+  add_valued(&command, "--config", "FILE.toml", source.config,
+             "configuration of all recordings, instead of their own: ports and instruments");
+  add_valued(&command, "--field", "N,E,D", options.where.field,
+             "the Earth's field in uT (north, east, down), instead of the World Magnetic Model's where the "
+             "fixes are");
+  add_repeatable(&command, "--exclude", "NAME", source.excluded,
+                 "removes this effect from the library; repeatable");
+  add_repeatable(
+      &command, "--without", "NAME", options.without,
+      "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
+      "gyros, accelerometers, depth, gps or motor; repeatable");
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  command.add_option("--bank", options.bank_missions, "so many")
-      ->check(CLI::Range(2, 10'000))
-      ->capture_default_str()
-      ->group(bank);
-  command.add_option("--seed", options.bank_seed, "seed of their noise and tolerances")
-      ->capture_default_str()
-      ->group(bank);
-  command.add_option("--cache", options.cache, "folder in which they are kept; default: ~/.cache/navcal")
-      ->option_text("DIR")
+  add_number(&command, "--bank", 2, 10'000, options.bank_missions, "so many")->group(bank);
+  add_defaulted(&command, "--seed", options.bank_seed, "seed of their noise and tolerances")->group(bank);
+  add_valued(&command, "--cache", "DIR", options.cache, "folder in which they are kept; default: ~/.cache/navcal")
       ->group(bank);
 }
 

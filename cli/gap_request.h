@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/place_arguments.h"
-#include "cli/window_options.h"
+#include "cli/shared_options.h"
 #include "config/layout.h"
 #include "gap/verdict/request.h"
 #include "report/gap_words.h"

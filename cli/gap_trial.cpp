@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/gap_trial.h"
 
 #include <fmt/format.h>
 
@@ -184,60 +183,40 @@ void add_gap_trial(CLI::App& gap) {
   auto* command = gap.add_subcommand("trial", "blind validation of the diagnosis on withheld effects");
   const auto options = std::make_shared<GapTrialCommandOptions>();
   auto& asking = options->asking;
-  command->add_option("--cases", options->cases, "number of cases; each has three missions of one vehicle")
-      ->check(CLI::Range(1, 100000))
-      ->option_text("N");
+  add_valued(command, "--cases", "N", options->cases, "number of cases; each has three missions of one vehicle")
+      ->check(CLI::Range(1, 100000));
   command->add_flag(
       "--active", options->active,
       "after each answer the vehicle sails what navcal gap next plans, and is diagnosed again; controls "
       "sail as many minutes of survey, and of random manoeuvres");
-  command
-      ->add_option("--missions", options->missions, "missions that are sailed after the first one; with --active")
-      ->check(CLI::Range(1, validation::kMostPlannedMissions))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of effects, strengths, vehicles and noise")
-      ->capture_default_str();
+  add_number(command, "--missions", 1, validation::kMostPlannedMissions, options->missions,
+             "missions that are sailed after the first one; with --active");
+  add_defaulted(command, "--seed", options->seed, "seed of effects, strengths, vehicles and noise");
   command->add_option("--minutes", options->minutes, "length of a mission, unless the arm has its own")
       ->check(CLI::IsMember({3, 10}))
       ->capture_default_str();
-  command
-      ->add_option("--places", options->places,
-                   "number of places, dates and waters that are drawn, one of them for each case; null missions "
-                   "serve one place each")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command
-      ->add_option("--arms", options->arms, "only these arms: nulls, singles, pairs, triples, short, removed, ...")
+  add_number(command, "--places", 1, 100000, options->places,
+             "number of places, dates and waters that are drawn, one of them for each case; null missions "
+             "serve one place each");
+  add_valued(command, "--arms", "LIST", options->arms,
+             "only these arms: nulls, singles, pairs, triples, short, removed, ...")
+      ->delimiter(',');
+  add_valued(command, "--only", "CASE", options->only, "only these cases, by number")
       ->delimiter(',')
-      ->option_text("LIST");
-  command->add_option("--only", options->only, "only these cases, by number")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber)
-      ->option_text("CASE");
-  command->add_option("--jobs", asking.jobs, "number of cases at a time; one diagnosis uses all cores")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  command
-      ->add_option("--bank", asking.bank_missions,
-                   "number of null missions of the diagnosis; default: that of navcal gap")
-      ->check(CLI::Range(1, 100000))
-      ->option_text("N");
-  command
-      ->add_option("--without", asking.without,
-                   "instruments that the diagnosis has to do without: those of navcal gap --without")
-      ->delimiter(',')
-      ->option_text("LIST");
-  command->add_option("--timeout", options->timeout_s, "time limit of a diagnosis, seconds")
-      ->check(CLI::Range(1, 86400))
-      ->capture_default_str();
-  command->add_option("--json", options->json, "all cases, truths and scores; - is standard output")
-      ->option_text("FILE|-");
-  command->add_option("--report", options->report, "page with scores and pictures; needs no other file")
-      ->option_text("FILE.html");
-  command
-      ->add_option("--keep", asking.keep,
-                   "keeps recordings and answers in this folder, one subfolder for each case")
-      ->option_text("DIR");
+      ->check(CLI::PositiveNumber);
+  add_number(command, "--jobs", 1, 256, asking.jobs, "number of cases at a time; one diagnosis uses all cores");
+  add_valued(command, "--bank", "N", asking.bank_missions,
+             "number of null missions of the diagnosis; default: that of navcal gap")
+      ->check(CLI::Range(1, 100000));
+  add_valued(command, "--without", "LIST", asking.without,
+             "instruments that the diagnosis has to do without: those of navcal gap --without")
+      ->delimiter(',');
+  add_number(command, "--timeout", 1, 86400, options->timeout_s, "time limit of a diagnosis, seconds");
+  add_valued(command, "--json", "FILE|-", options->json, "all cases, truths and scores; - is standard output");
+  add_valued(command, "--report", "FILE.html", options->report,
+             "page with scores and pictures; needs no other file");
+  add_valued(command, "--keep", "DIR", asking.keep,
+             "keeps recordings and answers in this folder, one subfolder for each case");
   command->add_option("--program", asking.program, "the program that diagnoses")->group("");
   command->footer(
       "Effects are drawn, and a second, independent simulator makes the recordings. The diagnosis is a separate "

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/gap_watch.h"
 
 #include <fmt/format.h>
 
@@ -19,10 +18,11 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
+#include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/gap_request.h"
-#include "cli/place_options.h"
 #include "cli/result_file.h"
+#include "cli/shared_options.h"
 #include "cli/watch_stream.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
@@ -30,7 +30,6 @@
 #include "gap/data/mission.h"
 #include "gap/watch/live_records.h"
 #include "gap/watch/state_file.h"
-#include "gap/watch/watched_recording.h"
 #include "record/recording.h"
 #include "report/gap_watch_report.h"
 
@@ -269,38 +268,25 @@ void add_gap_watch(CLI::App& gap) {
   auto* command =
       gap.add_subcommand("watch", "judges a mission while it is sailed: alarm, place and cause of a gap");
   const auto options = std::make_shared<GapWatchOptions>();
-  command->add_option("--host", options->host, "host of navcald")->capture_default_str();
-  command->add_option("--port", options->port, "its status port")
-      ->check(CLI::Range(1, 65535))
-      ->capture_default_str();
-  command->add_option("--vehicle", options->vehicle, "the identified vehicle; default: the reference vehicle")
-      ->option_text("FILE.toml");
-  command->add_option("--config", options->config, "configuration of navcald, for the noise of its instruments")
-      ->option_text("FILE.toml");
-  command->add_option("--recording", options->recording, "a capture or log, as if it came now, instead of navcald")
-      ->option_text("FILE");
+  add_defaulted(command, "--host", options->host, "host of navcald");
+  add_number(command, "--port", 1, 65535, options->port, "its status port");
+  add_valued(command, "--vehicle", "FILE.toml", options->vehicle,
+             "the identified vehicle; default: the reference vehicle");
+  add_valued(command, "--config", "FILE.toml", options->config,
+             "configuration of navcald, for the noise of its instruments");
+  add_valued(command, "--recording", "FILE", options->recording,
+             "a capture or log, as if it came now, instead of navcald");
   add_place_and_field(command, options->where);
-  command->add_option("--cache", options->cache, "folder of null banks; default: ~/.cache/navcal")
-      ->option_text("DIR");
-  command->add_option("--false-alarms-per-hour", options->false_alarms_per_h, "at most so many, on average")
-      ->check(CLI::Range(1e-9, 1.0))
-      ->capture_default_str();
-  command
-      ->add_option("--state", options->state, "what was seen so far; read at the start, written after each event")
-      ->option_text("FILE.json");
-  command->add_option("--metrics", options->metrics, "numbers for Prometheus' textfile collector")
-      ->option_text("FILE.prom");
-  command->add_option("--status-minutes", options->status_min, "time between two status events")
-      ->check(CLI::Range(0.0, 1440.0))
-      ->capture_default_str();
+  add_valued(command, "--cache", "DIR", options->cache, "folder of null banks; default: ~/.cache/navcal");
+  add_number(command, "--false-alarms-per-hour", 1e-9, 1.0, options->false_alarms_per_h,
+             "at most so many, on average");
+  add_valued(command, "--state", "FILE.json", options->state,
+             "what was seen so far; read at the start, written after each event");
+  add_valued(command, "--metrics", "FILE.prom", options->metrics, "numbers for Prometheus' textfile collector");
+  add_number(command, "--status-minutes", 0.0, 1440.0, options->status_min, "time between two status events");
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  command->add_option("--bank", options->bank_missions, "number of null missions")
-      ->check(CLI::Range(12, 10'000))
-      ->capture_default_str()
-      ->group(bank);
-  command->add_option("--seed", options->bank_seed, "seed of their noise and tolerances")
-      ->capture_default_str()
-      ->group(bank);
+  add_number(command, "--bank", 12, 10'000, options->bank_missions, "number of null missions")->group(bank);
+  add_defaulted(command, "--seed", options->bank_seed, "seed of their noise and tolerances")->group(bank);
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
   command->footer(

@@ -10,7 +10,7 @@
 #include "cli/exit_statuses.h"
 #include "cli/recorded_motions.h"
 #include "cli/result_file.h"
-#include "cli/window_options.h"
+#include "cli/shared_options.h"
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "identify/answer/identification.h"
@@ -72,25 +72,19 @@ void add_identify(CLI::App& app) {
   const auto options = std::make_shared<IdentifyCommandOptions>();
   command->add_option("FILE", options->files, "recordings of the vehicle without faults: captures or logs")
       ->required();
-  command
-      ->add_option("--vehicle", options->vehicle,
-                   "layout with the data sheet's numbers; those with KEY_std or KEY_range are fitted")
-      ->required()
-      ->option_text("PRIOR.toml");
-  command
-      ->add_option("--holdout", options->held_out,
-                   "another recording of the vehicle, on which the fit is judged; repeatable")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
-  command->add_option("-o,--output", options->output, "layout to write: fitted numbers with their standard errors")
-      ->required()
-      ->option_text("VEHICLE.toml");
-  command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
-  command->add_option("--report", options->report, "page with a picture; needs no other file")
-      ->option_text("FILE.html");
-  command->add_option("--config", options->config, "configuration of all recordings, instead of their own")
-      ->option_text("FILE.toml");
+  add_valued(command, "--vehicle", "PRIOR.toml", options->vehicle,
+             "layout with the data sheet's numbers; those with KEY_std or KEY_range are fitted")
+      ->required();
+  add_repeatable(command, "--holdout", "FILE", options->held_out,
+                 "another recording of the vehicle, on which the fit is judged; repeatable");
+  add_valued(command, "-o,--output", "VEHICLE.toml", options->output,
+             "layout to write: fitted numbers with their standard errors")
+      ->required();
+  add_valued(command, "--json", "FILE|-", options->json,
+             "the answer as one JSON object; - is standard output, without text");
+  add_valued(command, "--report", "FILE.html", options->report, "page with a picture; needs no other file");
+  add_valued(command, "--config", "FILE.toml", options->config,
+             "configuration of all recordings, instead of their own");
   add_window(*command, *options);
   command->add_flag("--no-advice", options->no_advice, "do not look for manoeuvres that would tell more");
   command->footer(

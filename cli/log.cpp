@@ -9,10 +9,6 @@
 
 #include "base/printable.h"
 #include "cli/commands.h"
-#include "cli/log_control.h"
-#include "cli/log_import.h"
-#include "cli/log_run.h"
-#include "cli/log_surfacings.h"
 #include "cli/result_file.h"
 #include "record/export/export.h"
 #include "record/log/log_info.h"
@@ -120,7 +116,7 @@ void add_log(CLI::App& app) {
   });
   add_log_surfacings(*log);
 
-  add_log_control(log);
+  add_log_control(*log);
 }
 
 }  // namespace navcal::cli

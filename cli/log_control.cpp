@@ -1,21 +1,144 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/log_control.h"
-
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "analysis/failure.h"
 #include "analysis/progress.h"
+#include "base/descriptor.h"
 #include "base/interruptible.h"
 #include "base/printable.h"
-#include "cli/log_fetch.h"
+#include "cli/commands.h"
 #include "cli/log_link.h"
+#include "record/log/checksum.h"
+#include "record/log/log_folder.h"
 
 namespace navcal::cli {
 namespace {
+
+enum class Fetched { whole, was_there };
+
+/// Bytes that are compared by one checksum.
+constexpr std::uint64_t kFetchStep_bytes = 4 << 20;
+
+[[noreturn]] void fail_fetch(const std::string& why) { throw analysis::Failure(analysis::Exit::failed, why); }
+
+/// NAME.part, held by this process alone.
+class PartFile {
+ public:
+  explicit PartFile(std::filesystem::path path)
+      : path_(std::move(path)), file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644)) {
+    if (!file_) fail("cannot be opened");
+    if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) fail("another navcal is downloading it");
+    struct stat status {};
+    if (::fstat(file_.get(), &status) != 0) fail("cannot be read");
+    bytes_ = static_cast<std::uint64_t>(status.st_size);
+  }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+  void append(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(bytes_));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail("cannot be written");
+      bytes_ += static_cast<std::uint64_t>(n);
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+  }
+  void cut(std::uint64_t bytes) {
+    if (::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0) fail("cannot be cut");
+    bytes_ = bytes;
+  }
+  [[nodiscard]] std::uint32_t sum(std::uint64_t offset, std::uint64_t length) const {
+    std::string bytes(length, '\0');
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const ssize_t n =
+          ::pread(file_.get(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail("cannot be read");
+      done += static_cast<std::size_t>(n);
+    }
+    return record::crc32(bytes);
+  }
+  /// On the disk, read-only as a finished log is, and under its name unless that is taken.
+  void rename_to(const std::filesystem::path& target) const {
+    if (::fsync(file_.get()) != 0 || ::fchmod(file_.get(), 0444) != 0) fail("cannot be finished");
+    if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) != 0)
+      fail("cannot be renamed to " + target.filename().string());
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::system_error(base::last_error(), path_.string() + ": " + what);
+  }
+
+  std::filesystem::path path_;
+  base::Descriptor file_;
+  std::uint64_t bytes_ = 0;
+};
+
+/// Leading bytes of the part that are those of the log, in steps.
+std::uint64_t right_bytes(LogLink& link, const std::string& name, const PartFile& part) {
+  std::uint64_t right = 0;
+  while (right < part.bytes()) {
+    const std::uint64_t length = std::min(kFetchStep_bytes, part.bytes() - right);
+    if (link.sum(name, right, length) != part.sum(right, length)) break;
+    right += length;
+  }
+  return right;
+}
+
+/// Whether the log is there already. Throws when its name is taken by something else.
+bool is_there(const std::filesystem::path& target, const RemoteLog& log) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(target, error);
+  if (status.type() == std::filesystem::file_type::not_found) return false;
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(target, error) == log.bytes)
+    return true;
+  fail_fetch(target.string() + ": there is another file of this name; it is never overwritten");
+}
+
+/// Downloads a finished log into a folder. NAME.part grows there; one that is left of an earlier attempt is
+/// continued as far as its bytes are those of the log. It is renamed to NAME once every byte has been compared by
+/// checksum. A file of that name is never overwritten. `progress` gets the bytes that are there. Throws
+/// analysis::Failure, std::system_error and what LogLink throws; NAME.part then stays.
+Fetched fetch_log(LogLink& link, const RemoteLog& log, const std::filesystem::path& folder,
+                  const std::function<void(std::uint64_t bytes)>& progress) {
+  // The name comes from the daemon: it must not lead out of the folder.
+  if (!record::is_log_name(log.name)) fail_fetch(log.name + ": not the name of a log");
+  if (!log.finished) fail_fetch(log.name + ": it is being written; navcal log stop, or log.rotate, finishes it");
+  const auto target = folder / log.name;
+  if (is_there(target, log)) return Fetched::was_there;
+  PartFile part(target.string() + ".part");
+  if (part.bytes() > log.bytes) part.cut(log.bytes);
+  part.cut(right_bytes(link, log.name, part));
+  while (part.bytes() < log.bytes) {
+    if (base::Interruptible::interrupted())
+      fail_fetch(fmt::format("interrupted: {}.part has {} of {} bytes; the same command continues", log.name,
+                             part.bytes(), log.bytes));
+    const std::string bytes = link.read(log.name, part.bytes());
+    if (bytes.empty() || bytes.size() > log.bytes - part.bytes()) fail_fetch(log.name + ": its size has changed");
+    part.append(bytes);
+    progress(part.bytes());
+  }
+  if (const std::uint64_t right = right_bytes(link, log.name, part); right < log.bytes) {
+    part.cut(right);
+    fail_fetch(fmt::format("{}: the bytes from {} on are not those of the log; the same command gets them again",
+                           log.name, right));
+  }
+  part.rename_to(target);
+  return Fetched::whole;
+}
 
 struct LogControlOptions {
   std::filesystem::path control = "/run/navcal/control";
@@ -90,18 +213,17 @@ void select_log(const LogControlOptions& options) {
     fmt::print("{}\n", base::printable(left_out.get<std::string>()));
 }
 
-CLI::App* add_command(CLI::App* log, const LogOptions& options, const char* name, const char* description,
+CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name, const char* description,
                       const char* example) {
-  auto* const command = log->add_subcommand(name, description);
-  command->add_option("--control", options->control, "navcald's control socket")
-      ->option_text("SOCKET [/run/navcal/control]");
+  auto* const command = log.add_subcommand(name, description);
+  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control, "navcald's control socket");
   command->footer(std::string("Example: ") + example);
   return command;
 }
 
 }  // namespace
 
-void add_log_control(CLI::App* log) {
+void add_log_control(CLI::App& log) {
   const auto options = std::make_shared<LogControlOptions>();
   auto* const list = add_command(log, options, "list", "the logs of a running navcald: name, bytes, begin, end",
                                  "navcal log list");
@@ -110,9 +232,9 @@ void add_log_control(CLI::App* log) {
 
   auto* const fetch = add_command(log, options, "fetch", "downloads finished logs from a running navcald",
                                   "navcal log fetch --to dives");
-  fetch->add_option("FILE", options->files, "names of logs; without any, all that are finished and not there yet")
-      ->option_text("NAME");
-  fetch->add_option("--to", options->to, "folder for the logs")->option_text("DIR")->required();
+  add_valued(fetch, "FILE", "NAME", options->files,
+             "names of logs; without any, all that are finished and not there yet");
+  add_valued(fetch, "--to", "DIR", options->to, "folder for the logs")->required();
   fetch->footer(
       "NAME.part grows in the folder, and the same command continues it after an interruption. Checksums are\n"
       "compared, and a file that is there is never overwritten.\n\nExample: navcal log fetch --to dives");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/log_import.h"
+
+#include "analysis/log_import.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,7 @@
 #include <string>
 
 #include "analysis/import/import_log.h"
-#include "analysis/log_import.h"
-#include "cli/log_run.h"
+#include "cli/commands.h"
 #include "cli/result_file.h"
 #include "protocols/device_types.h"
 
@@ -66,26 +66,22 @@ void add_log_import(CLI::App& log) {
   in->add_option("FILE", arguments->file,
                  "capture (.cap), bytes of a device, or a log of another system, known by its content")
       ->required();
-  in->add_option("-o,--output", arguments->to, "the log")->option_text("FILE.mcap")->required();
-  in->add_option("--format", arguments->options.format,
-                 "read the file as this: " + analysis::import_format_names())
-      ->option_text("NAME");
+  add_valued(in, "-o,--output", "FILE.mcap", arguments->to, "the log")->required();
+  add_valued(in, "--format", "NAME", arguments->options.format,
+             "read the file as this: " + analysis::import_format_names());
   std::vector<std::string> devices;
   for (const auto& device : protocols::kDeviceTypes) {
     if (device.protocol != protocols::Protocol::described) devices.emplace_back(device.name);
   }
-  in->add_option("--driver", arguments->driver,
-                 "the file has the bytes of such a device; .nmea and .ubx are known by name and content")
-      ->check(CLI::IsMember(devices))
-      ->option_text("NAME");
+  add_valued(in, "--driver", "NAME", arguments->driver,
+             "the file has the bytes of such a device; .nmea and .ubx are known by name and content")
+      ->check(CLI::IsMember(devices));
   in->add_option("--baud", arguments->baud, "speed of the line that these bytes came on, default as delivered")
       ->check(CLI::Range(50, 4'000'000));
-  in->add_option("--map", arguments->options.map,
-                 "meaning of the columns of a CSV file, or of the outputs of another log: shaft and fins")
-      ->option_text("FILE.toml");
-  in->add_option("--cache", arguments->options.folders,
-                 "where a Slocum's lists of sensors (.cac) are, if not beside FILE")
-      ->option_text("DIR");
+  add_valued(in, "--map", "FILE.toml", arguments->options.map,
+             "meaning of the columns of a CSV file, or of the outputs of another log: shaft and fins");
+  add_valued(in, "--cache", "DIR", arguments->options.folders,
+             "where a Slocum's lists of sensors (.cac) are, if not beside FILE");
   in->add_flag("--json", arguments->json, "one JSON object instead of a table, for a log of another system");
   in->footer(
       "docs/import.md describes the formats, and the map of columns and outputs.\n\n"

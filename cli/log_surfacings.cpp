@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/log_surfacings.h"
 
 #include <cstdio>
 #include <memory>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "analysis/surfacing_run.h"
+#include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -51,10 +51,8 @@ void add_log_surfacings(CLI::App& log) {
       ->add_option("FILE", options->files, "logs (.mcap) or captures (.cap); several of one series in their order")
       ->required();
   command->add_flag("--json", options->json, "one JSON object instead of a table");
-  command->add_option("--report", options->page, "page with the distributions and plots")
-      ->option_text("FILE.html");
-  command->add_option("--config", options->config, "configuration to use instead of the recording's own")
-      ->option_text("FILE");
+  add_valued(command, "--report", "FILE.html", options->page, "page with the distributions and plots");
+  add_valued(command, "--config", "FILE", options->config, "configuration to use instead of the recording's own");
   command->footer(
       "docs/surfacing.md describes the table and the JSON keys.\n\n"
       "Example: navcal log surfacings --report surfacings.html dive.mcap");

@@ -65,20 +65,15 @@ void add_noise(CLI::App& app) {
   auto* command = app.add_subcommand(
       "noise", "noise of each channel of a recording at rest: Allan deviation, spectrum, resolution");
   command->add_option("FILE", options->request.file, "log (.mcap) or capture (.cap)")->required();
-  command->add_option("--config", options->config, "configuration to use instead of the recording's own")
-      ->option_text("FILE.toml");
-  command
-      ->add_option("--from", options->request.from_s,
-                   "begin of the part to use, from the beginning of the recording; default: all parts at rest")
-      ->option_text("S");
-  command->add_option("--to", options->request.to_s, "end of that part")->option_text("S");
+  add_valued(command, "--config", "FILE.toml", options->config,
+             "configuration to use instead of the recording's own");
+  add_valued(command, "--from", "S", options->request.from_s,
+             "begin of the part to use, from the beginning of the recording; default: all parts at rest");
+  add_valued(command, "--to", "S", options->request.to_s, "end of that part");
   command->add_flag("--json", options->json, "one JSON object instead of a table");
-  command->add_option("--report", options->page, "page to write, with pictures; needs no other file")
-      ->option_text("FILE.html");
-  command
-      ->add_option("--write", options->write,
-                   "configuration to write, with the noise in [instruments]; an existing file is not overwritten")
-      ->option_text("FILE.toml");
+  add_valued(command, "--report", "FILE.html", options->page, "page to write, with pictures; needs no other file");
+  add_valued(command, "--write", "FILE.toml", options->write,
+             "configuration to write, with the noise in [instruments]; an existing file is not overwritten");
   command->footer(
       "docs/noise.md describes the method, the table and the JSON keys.\n\n"
       "Example: navcal noise --report bench.html --write measured.toml bench.mcap");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -130,31 +129,25 @@ void run_pilot(PilotCommandOptions& options) {
 
 void add_limits(CLI::App* command, PilotCommandOptions& options) {
   const auto* const group = "What stops the vehicle";
-  command->add_option("--max-depth", options.limits.depth_m, "deeper than this")
+  add_valued(command, "--max-depth", "METRES [10]", options.limits.depth_m, "deeper than this")
       ->check(CLI::Range(0.1, 10000.0))
       ->capture_default_str()
-      ->option_text("METRES [10]")
       ->group(group);
-  command
-      ->add_option("--min-altitude", options.limits.altitude_m,
-                   "nearer to the sea floor than this; 0: not watched")
+  add_valued(command, "--min-altitude", "METRES [0]", options.limits.altitude_m,
+             "nearer to the sea floor than this; 0: not watched")
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str()
-      ->option_text("METRES [0]")
       ->group(group);
-  command->add_option("--max-minutes", options.minutes, "under way for longer than this")
+  add_valued(command, "--max-minutes", "MINUTES [60]", options.minutes, "under way for longer than this")
       ->check(CLI::Range(0.01, 100000.0))
-      ->option_text("MINUTES [60]")
       ->group(group);
-  command->add_option("--max-range", options.limits.range_m, "farther than this from where the mission began")
+  add_valued(command, "--max-range", "METRES [1000]", options.limits.range_m,
+             "farther than this from where the mission began")
       ->check(CLI::Range(1.0, 1e6))
-      ->option_text("METRES [1000]")
       ->group(group);
-  command
-      ->add_option("--max-age", options.limits.age_s,
-                   "compass, inertial card, motor card or navcald itself silent for longer than this")
+  add_valued(command, "--max-age", "SECONDS [1]", options.limits.age_s,
+             "compass, inertial card, motor card or navcald itself silent for longer than this")
       ->check(CLI::Range(0.2, 60.0))
-      ->option_text("SECONDS [1]")
       ->group(group);
 }
 
@@ -163,35 +156,25 @@ void add_limits(CLI::App* command, PilotCommandOptions& options) {
 void add_pilot(CLI::App& app) {
   auto* command = app.add_subcommand("pilot", "takes the vehicle through a mission, through a running navcald");
   const auto options = std::make_shared<PilotCommandOptions>();
-  command
-      ->add_option("mission", options->mission, "a mission that is shipped, or a TOML file; as simulate takes it")
-      ->required()
-      ->option_text("NAME|FILE");
-  command
-      ->add_option("--gains", options->gains,
-                   "TOML file with the table [autopilot], and [hull] and [propeller], from which the shaft speed "
-                   "for a speed\nfollows; what it does not say is as in config/pilot.toml")
-      ->option_text("FILE.toml");
-  command->add_option("--control", options->address.control, "navcald's control socket")
-      ->option_text("SOCKET [/run/navcal/control]");
-  command->add_option("--host", options->address.host, "where navcald's status socket is")
-      ->option_text("HOST [127.0.0.1]");
-  command->add_option("--port", options->address.port, "its port")
-      ->check(CLI::Range(1, 65535))
-      ->option_text("PORT [2947]");
-  command->add_option("--priority", options->lease.priority, "of its lease of the motor card, against others'")
-      ->check(CLI::Range(0, 1000))
-      ->option_text("NUMBER [1]");
-  command
-      ->add_option("--lease-timeout", options->lease.timeout_s,
-                   "navcald stops the vehicle when orders stay out so long")
-      ->check(CLI::Range(0.1, 60.0))
-      ->option_text("SECONDS [0.5]");
-  command
-      ->add_option("--wait", options->wait_s,
-                   "at most, for the instruments and for true north, before the mission begins")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->option_text("SECONDS [15]");
+  add_valued(command, "mission", "NAME|FILE", options->mission,
+             "a mission that is shipped, or a TOML file; as simulate takes it")
+      ->required();
+  add_valued(command, "--gains", "FILE.toml", options->gains,
+             "TOML file with the table [autopilot], and [hull] and [propeller], from which the shaft speed "
+             "for a speed\nfollows; what it does not say is as in config/pilot.toml");
+  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->address.control,
+             "navcald's control socket");
+  add_valued(command, "--host", "HOST [127.0.0.1]", options->address.host, "where navcald's status socket is");
+  add_valued(command, "--port", "PORT [2947]", options->address.port, "its port")->check(CLI::Range(1, 65535));
+  add_valued(command, "--priority", "NUMBER [1]", options->lease.priority,
+             "of its lease of the motor card, against others'")
+      ->check(CLI::Range(0, 1000));
+  add_valued(command, "--lease-timeout", "SECONDS [0.5]", options->lease.timeout_s,
+             "navcald stops the vehicle when orders stay out so long")
+      ->check(CLI::Range(0.1, 60.0));
+  add_valued(command, "--wait", "SECONDS [15]", options->wait_s,
+             "at most, for the instruments and for true north, before the mission begins")
+      ->check(CLI::Range(0.1, 3600.0));
   add_limits(command, *options);
   command->footer(
       "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply or battery, near "

@@ -46,15 +46,10 @@ void add_play(CLI::App& app) {
   const auto arguments = std::make_shared<analysis::PlayArguments>();
   command->add_option("FILE", arguments->file, "capture (.cap) or log (.mcap)")->required();
   command->add_option("--dir", arguments->dir, "folder for the ports, DIR/<port>; created if missing")->required();
-  command->add_option("--speed", arguments->speed, "factor of the speed over the recorded one")
-      ->check(CLI::Range(0.001, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--wait", arguments->wait_s,
-                   "seconds to wait, after `ready`, until every port has been opened, so that nothing of the\n"
-                   "beginning is missed; then it starts anyway. 0 starts at once")
-      ->check(CLI::Range(0.0, 86400.0))
-      ->capture_default_str();
+  add_number(command, "--speed", 0.001, 1e6, arguments->speed, "factor of the speed over the recorded one");
+  add_number(command, "--wait", 0.0, 86400.0, arguments->wait_s,
+             "seconds to wait, after `ready`, until every port has been opened, so that nothing of the\n"
+             "beginning is missed; then it starts anyway. 0 starts at once");
   command->footer(
       "Like a real line it waits for no reader: unread bytes are lost, and counted at the end. Bytes sent "
       "to\n"

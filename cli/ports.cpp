@@ -79,14 +79,12 @@ void add_ports_command(CLI::App* ports) {
   const auto options = std::make_shared<PortsCommandOptions>();
   auto* const command =
       ports->add_subcommand("command", "gives the instrument at a port of a running navcald a command");
-  command->add_option("PORT", options->port, "name of the port; without it the commands of all ports are listed")
-      ->option_text("PORT");
-  command->add_option("NAME", options->name, "the command; without it those of the port are listed")
-      ->option_text("NAME");
+  add_valued(command, "PORT", "PORT", options->port,
+             "name of the port; without it the commands of all ports are listed");
+  add_valued(command, "NAME", "NAME", options->name, "the command; without it those of the port are listed");
   command->add_flag("--force", options->force,
                     "also a command that stops data or makes the device forget something");
-  command->add_option("--control", options->control, "navcald's control socket")
-      ->option_text("SOCKET [/run/navcal/control]");
+  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control, "navcald's control socket");
   command->footer("The device's answer is printed.\n\nExample: navcal ports command gps receiver_id");
   command->callback([options] { run_command(*options); });
 }

@@ -3,20 +3,142 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "analysis/failure.h"
 #include "base/interruptible.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/remote_console.h"
-#include "cli/remote_files.h"
 #include "cli/remote_operator.h"
+#include "record/json/base64.h"
+#include "record/log/checksum.h"
 
 namespace navcal::cli {
 namespace {
+
+using RemoteJson = nlohmann::json;
+
+/// Bytes asked for at once: ten seconds on a link of 2 kB/s.
+constexpr std::uint64_t kRemotePart_bytes = 12288;
+/// Bytes whose checksum the vehicle gives at once.
+constexpr std::uint64_t kRemoteSum_bytes = 4 << 20;
+/// Time for which an answer is awaited on a link that may be dead for a while.
+constexpr double kRemotePatience_s = 600;
+
+[[noreturn]] void fail_remote(const std::string& why) { throw analysis::Failure(analysis::Exit::failed, why); }
+
+RemoteJson granted(RemoteOperator& remote, const RemoteJson& request) {
+  RemoteJson answer = RemoteJson::parse(remote.ask(request.dump(), kRemotePatience_s), nullptr, false);
+  if (!answer.is_object()) fail_remote("the vehicle's answer is no JSON object");
+  if (answer.value("ok", false)) return answer;
+  fail_remote("navcald: " + answer.value("error", std::string("refused")));
+}
+
+struct VehicleLog {
+  std::string name;
+  std::uint64_t bytes = 0;
+};
+
+std::vector<VehicleLog> logs_of(RemoteOperator& remote) {
+  std::vector<VehicleLog> logs;
+  for (bool more = true; more;) {
+    const RemoteJson page =
+        granted(remote, {{"command", "log.list"}, {"after", logs.empty() ? "" : logs.back().name}});
+    for (const RemoteJson& log : page.at("files")) logs.push_back({log.at("name"), log.at("bytes")});
+    more = page.value("more", false) && !page.at("files").empty();
+  }
+  return logs;
+}
+
+std::uint32_t sum_of_file(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t length) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(offset));
+  std::string bytes(length, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(length));
+  if (static_cast<std::uint64_t>(in.gcount()) != length) fail_remote(file.string() + ": cannot be read");
+  return record::crc32(bytes);
+}
+
+/// Compares `bytes` bytes of a file with those of the log, by checksums that the vehicle makes.
+bool is_same(RemoteOperator& remote, const std::string& name, const std::filesystem::path& file,
+             std::uint64_t bytes) {
+  for (std::uint64_t offset = 0; offset < bytes;) {
+    const std::uint64_t length = std::min(kRemoteSum_bytes, bytes - offset);
+    const RemoteJson sum =
+        granted(remote, {{"command", "log.sum"}, {"file", name}, {"offset", offset}, {"length", length}});
+    if (sum.at("length") != length || sum.at("crc32") != sum_of_file(file, offset, length)) return false;
+    offset += length;
+  }
+  return true;
+}
+
+void append_part(RemoteOperator& remote, const std::string& name, const std::filesystem::path& part,
+                 std::uint64_t offset) {
+  const RemoteJson answer = granted(
+      remote, {{"command", "log.read"}, {"file", name}, {"offset", offset}, {"length", kRemotePart_bytes}});
+  const auto bytes = record::from_base64(answer.at("data").get<std::string>());
+  if (!bytes || bytes->empty() || answer.value("crc32", record::crc32(*bytes)) != record::crc32(*bytes))
+    fail_remote(name + ": a part is damaged, or the log has become shorter");
+  std::ofstream out(part, std::ios::binary | std::ios::app);
+  out.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
+  out.close();
+  if (!out) fail_remote(part.string() + ": cannot be written");
+}
+
+/// The vehicle's logs as text, one a line: name and bytes. Throws analysis::Failure with the vehicle's words.
+std::string list_files(RemoteOperator& remote) {
+  try {
+    std::string out;
+    for (const VehicleLog& log : logs_of(remote)) out += fmt::format("{:>12}  {}\n", log.bytes, log.name);
+    return out;
+  } catch (const RemoteJson::exception& error) {
+    fail_remote(std::string("the vehicle's list of logs cannot be read: ") + error.what());
+  }
+}
+
+/// Copies a log. What has come is in `target`.part, from where the next call goes on; the file gets its name when
+/// it is whole and its checksum is right. Throws analysis::Failure with the reason.
+void get_file(RemoteOperator& remote, const std::string& name, const std::filesystem::path& target) {
+  try {
+    const auto logs = logs_of(remote);
+    const auto found =
+        std::find_if(logs.begin(), logs.end(), [&](const VehicleLog& log) { return log.name == name; });
+    if (found == logs.end())
+      throw analysis::Failure(analysis::Exit::bad_input, name + ": the vehicle has no such log");
+    if (name.find('/') != std::string::npos) fail_remote(name + ": not the name of a log");
+    if (std::filesystem::exists(target)) fail_remote(target.string() + ": is there already");
+    const std::filesystem::path part = target.string() + ".part";
+    std::error_code error;
+    std::uint64_t bytes = std::filesystem::file_size(part, error);
+    if (error) bytes = 0;
+    if (bytes > found->bytes || (bytes > 0 && !is_same(remote, name, part, bytes))) {
+      fmt::print(stderr, "navcal remote: {} belongs to another log, and begins anew\n", part.string());
+      std::filesystem::remove(part);
+      bytes = 0;
+    }
+    while (bytes < found->bytes) {
+      append_part(remote, name, part, bytes);
+      bytes = std::filesystem::file_size(part);
+      fmt::print(stderr, "\rnavcal remote: {} of {} bytes", bytes, found->bytes);
+    }
+    fmt::print(stderr, "\n");
+    if (found->bytes == 0) std::ofstream(part).close();
+    if (bytes > found->bytes) std::filesystem::resize_file(part, found->bytes);
+    if (!is_same(remote, name, part, found->bytes)) fail_remote(part.string() + ": the checksum is wrong");
+    std::filesystem::rename(part, target);
+  } catch (const RemoteJson::exception& error) {
+    fail_remote(name + ": the vehicle's answer cannot be read: " + error.what());
+  }
+}
 
 using RemoteClock = RemoteOperator::Clock;
 
@@ -123,19 +245,15 @@ void run_remote(const RemoteCommandOptions& options) {
 }
 
 void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
-  command->add_option("--baud", options.remote.baud, "speed of the serial port")
-      ->check(CLI::Range(300, 4000000))
-      ->option_text("BAUD [57600]");
-  command
-      ->add_option("--key-file", options.remote.key_file,
-                   "the key that vehicle and operator share; only its owner may have access to the file")
-      ->option_text("FILE");
-  command->add_option("--budget", options.remote.budget_B_s, "bytes a second that this end sends at most")
-      ->check(CLI::Range(300.0, 1e6))
-      ->option_text("B/S [2000]");
-  command->add_option("--wait", options.wait_s, "at most, for the vehicle and for an answer")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->option_text("SECONDS [30]");
+  add_valued(command, "--baud", "BAUD [57600]", options.remote.baud, "speed of the serial port")
+      ->check(CLI::Range(300, 4000000));
+  add_valued(command, "--key-file", "FILE", options.remote.key_file,
+             "the key that vehicle and operator share; only its owner may have access to the file");
+  add_valued(command, "--budget", "B/S [2000]", options.remote.budget_B_s,
+             "bytes a second that this end sends at most")
+      ->check(CLI::Range(300.0, 1e6));
+  add_valued(command, "--wait", "SECONDS [30]", options.wait_s, "at most, for the vehicle and for an answer")
+      ->check(CLI::Range(0.1, 86400.0));
 }
 
 }  // namespace
@@ -143,37 +261,30 @@ void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
 void add_remote(CLI::App& app) {
   auto* command = app.add_subcommand("remote", "watches and steers a vehicle over a modem or TCP");
   const auto options = std::make_shared<RemoteCommandOptions>();
-  command->add_option("port", options->remote.address, "the modem's serial port, or tcp:HOST:PORT")
-      ->required()
-      ->option_text("PORT");
+  add_valued(command, "port", "PORT", options->remote.address, "the modem's serial port, or tcp:HOST:PORT")
+      ->required();
   auto* const action =
-      command
-          ->add_option("action", options->action,
-                       "status; stop ends every lease, and the vehicle orders its safe state; send a line of the "
-                       "control socket; ls\nlists the logs; get copies one and goes on where it was interrupted. "
-                       "Without one: the live view, which takes\ntyped commands")
-          ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}))
-          ->option_text("[status|stop|send|ls|get]");
-  command
-      ->add_option("argument", options->argument, "of send: the line, an object of JSON; of get: the log's name")
-      ->needs(action)
-      ->option_text("[JSON|NAME]");
-  command->add_option("-o,--output", options->output, "where get puts the log")->option_text("FILE [NAME]");
+      add_valued(command, "action", "[status|stop|send|ls|get]", options->action,
+                 "status; stop ends every lease, and the vehicle orders its safe state; send a line of the "
+                 "control socket; ls\nlists the logs; get copies one and goes on where it was interrupted. "
+                 "Without one: the live view, which takes\ntyped commands")
+          ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}));
+  add_valued(command, "argument", "[JSON|NAME]", options->argument,
+             "of send: the line, an object of JSON; of get: the log's name")
+      ->needs(action);
+  add_valued(command, "-o,--output", "FILE [NAME]", options->output, "where get puts the log");
   add_line_options(command, *options);
-  command->add_option("--holder", options->remote.holder, "name of the lease's holder, as others see it")
-      ->option_text("NAME [operator]");
-  command->add_option("--priority", options->remote.priority, "of the lease of the motor card, against others'")
-      ->check(CLI::Range(0, 1000))
-      ->option_text("NUMBER [10]");
-  command
-      ->add_option("--lease-timeout", options->remote.lease_timeout_s,
-                   "the vehicle stops when no order has come for so long")
-      ->check(CLI::Range(0.1, 60.0))
-      ->option_text("SECONDS [5]");
+  add_valued(command, "--holder", "NAME [operator]", options->remote.holder,
+             "name of the lease's holder, as others see it");
+  add_valued(command, "--priority", "NUMBER [10]", options->remote.priority,
+             "of the lease of the motor card, against others'")
+      ->check(CLI::Range(0, 1000));
+  add_valued(command, "--lease-timeout", "SECONDS [5]", options->remote.lease_timeout_s,
+             "the vehicle stops when no order has come for so long")
+      ->check(CLI::Range(0.1, 60.0));
   command->add_flag("--json", options->json, "prints reports and answers as lines of JSON");
-  command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
-      ->check(CLI::NonNegativeNumber)
-      ->option_text("SECONDS [0]");
+  add_valued(command, "--seconds", "SECONDS [0]", options->seconds, "end after this time (0: at Ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
   command->footer(
       "Typed commands: lease; order RPM A B C; stop; release; status; send {JSON}; quit. Ctrl-C, and closing the "
       "terminal,\ngive the lease back: the vehicle orders its safe state. docs/remote.md tells what a dead link "

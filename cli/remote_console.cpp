@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <string>
 
 #include "base/printable.h"
 #include "cli/watch_text.h"

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
-#include "cli/fleet_commands.h"
-#include "cli/gap_layouts.h"
-#include "cli/gap_trial.h"
 
 namespace navcal::cli {
 

@@ -10,9 +10,8 @@
 #include "analysis/simulate_run.h"
 #include "base/interruptible.h"
 #include "cli/commands.h"
-#include "cli/effect_options.h"
-#include "cli/place_options.h"
 #include "cli/result_file.h"
+#include "cli/shared_options.h"
 #include "config/load.h"
 #include "devices/instrument_model.h"
 #include "report/simulate_page.h"
@@ -84,41 +83,31 @@ void add_simulate(CLI::App& app) {
   const auto options = std::make_shared<SimulateCommandOptions>();
   auto& arguments = options->arguments;
   const auto* const motion = "Motion of the vehicle (one of these)";
-  command
-      ->add_option("--path", arguments.path,
-                   "moved along a path: t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3")
-      ->option_text("CSV")
+  add_valued(command, "--path", "CSV", arguments.path,
+             "moved along a path: t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3")
       ->group(motion);
-  command
-      ->add_option("--drive", arguments.drive,
-                   "driven by the shaft speed and the fins of such a file, from the state in its first row")
-      ->option_text("CSV")
+  add_valued(command, "--drive", "CSV", arguments.drive,
+             "driven by the shaft speed and the fins of such a file, from the state in its first row")
       ->group(motion);
-  command->add_option("--mission", arguments.mission, "autopiloted mission: a shipped one, or a file")
-      ->option_text("NAME|FILE")
+  add_valued(command, "--mission", "NAME|FILE", arguments.mission, "autopiloted mission: a shipped one, or a file")
       ->group(motion);
-  command
-      ->add_option("--vehicle", arguments.vehicle,
-                   "the vehicle, if it is not the reference vehicle: a vehicle file, or a layout (navcal vehicle)")
-      ->option_text("FILE.toml");
-  command
-      ->add_option("--config", arguments.config,
-                   "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments")
-      ->option_text("FILE.toml");
+  add_valued(command, "--vehicle", "FILE.toml", arguments.vehicle,
+             "the vehicle, if it is not the reference vehicle: a vehicle file, or a layout (navcal vehicle)");
+  add_valued(command, "--config", "FILE.toml", arguments.config,
+             "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments");
   command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
       ->check(CLI::Range(0.01, 1e6));
   add_effect_options(command, arguments.effects, arguments.effects_file);
   add_clock_option(command, arguments.clocks);
   add_place_and_field(command, arguments.where);
-  command->add_option("--date", arguments.where.date, "day on which the mission begins, at 00:00 UTC")
-      ->option_text("YYYY-MM-DD");
-  command->add_option("--seed", arguments.seed, "seed of noise, biases and directions")->capture_default_str();
+  add_valued(command, "--date", "YYYY-MM-DD", arguments.where.date,
+             "day on which the mission begins, at 00:00 UTC");
+  add_defaulted(command, "--seed", arguments.seed, "seed of noise, biases and directions");
   command->add_flag("--no-noise", arguments.no_noise, "instruments without noise; resolution and latency stay");
-  command->add_option("-o,--output", arguments.capture, "the recording")->option_text("FILE.cap");
-  command->add_option("--truth", arguments.truth, "the true motion, with the columns of --path, 100 rows a second")
-      ->option_text("FILE.csv");
-  command->add_option("--report", arguments.report, "page with pictures; needs no other file")
-      ->option_text("FILE.html");
+  add_valued(command, "-o,--output", "FILE.cap", arguments.capture, "the recording");
+  add_valued(command, "--truth", "FILE.csv", arguments.truth,
+             "the true motion, with the columns of --path, 100 rows a second");
+  add_valued(command, "--report", "FILE.html", arguments.report, "page with pictures; needs no other file");
   command->add_flag("--list-effects", options->list_effects,
                     "all effects with equation, parameters, typical strength");
   command->footer(

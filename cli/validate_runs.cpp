@@ -156,27 +156,17 @@ void add_validate_runs(CLI::App& app) {
   auto arguments = std::make_shared<ValidateRunsArguments>();
   auto* command =
       app.add_subcommand("validate-runs", "causes of short runs of a thruster vehicle, from nominal runs");
-  command
-      ->add_option("--nominal", arguments->nominal,
-                   "folder of nominal runs (.csv), which tell the nominal vehicle")
-      ->option_text("DIR")
+  add_valued(command, "--nominal", "DIR", arguments->nominal,
+             "folder of nominal runs (.csv), which tell the nominal vehicle")
       ->required();
-  command->add_option("--runs", arguments->runs, "folder of the runs to diagnose (.csv)")
-      ->option_text("DIR")
-      ->required();
-  command
-      ->add_option("--pools", arguments->pools,
-                   "runs to diagnose together, each pool of one session: {\"p001\": [\"r0001\", ...]}")
-      ->option_text("FILE.json");
-  command->add_option("--removed", arguments->removed, "effect to take out of the library")->option_text("NAME");
-  command
-      ->add_option("--sessions", arguments->sessions,
-                   "file to be written: the sessions found among the nominal runs, in the form of pools")
-      ->option_text("FILE.json");
-  command
-      ->add_option("--json", arguments->json,
-                   "answers to be written, one JSON object a line; - is standard output")
-      ->option_text("FILE")
+  add_valued(command, "--runs", "DIR", arguments->runs, "folder of the runs to diagnose (.csv)")->required();
+  add_valued(command, "--pools", "FILE.json", arguments->pools,
+             "runs to diagnose together, each pool of one session: {\"p001\": [\"r0001\", ...]}");
+  add_valued(command, "--removed", "NAME", arguments->removed, "effect to take out of the library");
+  add_valued(command, "--sessions", "FILE.json", arguments->sessions,
+             "file to be written: the sessions found among the nominal runs, in the form of pools");
+  add_valued(command, "--json", "FILE", arguments->json,
+             "answers to be written, one JSON object a line; - is standard output")
       ->required();
   command->footer(
       "docs/runs.md describes the files, the method, the answers and how far they can be trusted.\n\n"

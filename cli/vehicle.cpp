@@ -54,12 +54,7 @@ void check_recordings(const VehicleCheckArguments& arguments) {
 void check_layout(const VehicleCheckArguments& arguments) {
   if (!arguments.files.empty())
     return with_exit_statuses([&] { check_recordings(arguments); }, analysis::Exit::bad_input);
-  config::Layout layout;
-  try {
-    layout = config::load_layout(arguments.layout);
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  }
+  const config::Layout layout = config::load_layout(arguments.layout);
   const sim::Assessment found = sim::assess(layout);
   std::fputs(
       (arguments.json ? report::vehicle_check_json(layout, found) : report::vehicle_check_text(layout, found))
@@ -124,8 +119,8 @@ void add_vehicle_check(CLI::App& vehicle) {
   auto* const command = vehicle.add_subcommand("check", "What a layout amounts to, and what is odd about it");
   command->add_option("LAYOUT", arguments->layout, "Layout of a vehicle (.toml)")->required();
   command->add_option("FILE", arguments->files, "Recordings with commands, to be checked for wrong conventions");
-  command->add_option("--config", arguments->config, "Configuration of all recordings, instead of their own")
-      ->option_text("FILE.toml");
+  add_valued(command, "--config", "FILE.toml", arguments->config,
+             "Configuration of all recordings, instead of their own");
   command->add_flag("--json", arguments->json, "One JSON object");
   command->footer(
       "Shows masses, trim, stability, natural periods, terminal speeds, turning circle, glides, and which degrees "
@@ -147,17 +142,13 @@ void add_vehicle_predict(CLI::App& vehicle) {
       vehicle.add_subcommand("predict", "How well a layout predicts recorded motion, beside the simplest methods");
   command->add_option("LAYOUT", arguments->layout, "Layout of the vehicle (.toml)")->required();
   command->add_option("FILE", arguments->files, "Recordings with commands: captures or logs")->required();
-  command->add_option("--fit", arguments->fit, "Recording to which the regressions are fitted; repeatable")
-      ->option_text("TRAIN")
-      ->allow_extra_args(false);
-  command->add_option("--every", arguments->every_s, "Time between starts, s")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->capture_default_str();
-  command
-      ->add_option("--json", arguments->json, "The answer as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
-  command->add_option("--config", arguments->config, "Configuration of all recordings, instead of their own")
-      ->option_text("FILE.toml");
+  add_repeatable(command, "--fit", "TRAIN", arguments->fit,
+                 "Recording to which the regressions are fitted; repeatable");
+  add_number(command, "--every", 0.1, 3600.0, arguments->every_s, "Time between starts, s");
+  add_valued(command, "--json", "FILE|-", arguments->json,
+             "The answer as one JSON object; - is standard output, without text");
+  add_valued(command, "--config", "FILE.toml", arguments->config,
+             "Configuration of all recordings, instead of their own");
   command->footer(
       "From the measured state every few seconds, the recorded commands move the layout's vehicle for 1, 10 and "
       "60 s.\n"

@@ -15,7 +15,6 @@
 #include "analysis/log_import.h"
 #include "base/printable.h"
 #include "cli/commands.h"
-#include "cli/log_run.h"
 #include "cli/result_file.h"
 #include "record/recording.h"
 #include "web/viewer.h"
@@ -119,12 +118,9 @@ void add_view(CLI::App& app) {
       ->add_option("FILE", arguments->file,
                    "log (.mcap), capture (.cap), or a log of another system that `navcal log import` knows")
       ->required();
-  command->add_option("--port", arguments->port, "TCP port of the loopback address; 0: one that is free")
-      ->capture_default_str();
-  command
-      ->add_option("--speed", arguments->speed, "factor of the speed over the recorded one; the page changes it")
-      ->check(CLI::Range(0.001, 1e6))
-      ->capture_default_str();
+  add_defaulted(command, "--port", arguments->port, "TCP port of the loopback address; 0: one that is free");
+  add_number(command, "--speed", 0.001, 1e6, arguments->speed,
+             "factor of the speed over the recorded one; the page changes it");
   command->add_flag("--no-open", arguments->no_open, "print the address and open no browser");
   command->footer(
       "The page of navcal-web with a time bar; only this machine reaches it. It plays from when the page is "

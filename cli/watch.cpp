@@ -120,10 +120,8 @@ void watch(const WatchCommandOptions& options) {
 void add_watch(CLI::App& app) {
   auto* command = app.add_subcommand("watch", "live view of a running navcald");
   const auto options = std::make_shared<WatchCommandOptions>();
-  command->add_option("--host", options->host, "host of navcald")->capture_default_str();
-  command->add_option("--port", options->port, "its status port")
-      ->check(CLI::Range(1, 65535))
-      ->capture_default_str();
+  add_defaulted(command, "--host", options->host, "host of navcald");
+  add_number(command, "--port", 1, 65535, options->port, "its status port");
   command->add_flag("--json", options->json, "print the stream unchanged");
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);

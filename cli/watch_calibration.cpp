@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <utility>
 
 #include "base/printable.h"
 #include "cli/watch_text.h"

@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "base/angles.h"
 #include "cli/watch_text.h"

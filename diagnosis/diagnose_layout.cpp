@@ -10,7 +10,6 @@
 #include "diagnosis/cause_search.h"
 #include "diagnosis/held_out.h"
 #include "diagnosis/layout_verdict.h"
-#include "diagnosis/louder_channels.h"
 #include "diagnosis/nominal_bank.h"
 
 namespace navcal::diagnosis {

@@ -8,17 +8,26 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "diagnosis/limits.h"
-#include "diagnosis/louder_channels.h"
 #include "gap/verdict/answer.h"
 
 namespace navcal::diagnosis {
 namespace {
+
+constexpr std::string_view kUnit = "noise power";
+
+Floor floor_of_channel(std::span<const RecordingPower> nominal, std::size_t channel) {
+  std::vector<double> powers;
+  for (const RecordingPower& one : nominal) {
+    if (one.of_channel[channel] >= 0) powers.push_back(one.of_channel[channel]);
+  }
+  return floor_of(powers);
+}
 
 /// Causes that are less probable are not worth a line, but for the leading ones.
 constexpr double kLeastCandidate = 0.01;
@@ -200,6 +209,26 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
 }
 
 }  // namespace
+
+std::vector<gap::WhereEntry> louder_channels(const RecordingPower& of, std::span<const RecordingPower> nominal) {
+  std::vector<gap::WhereEntry> louder;
+  for (std::size_t c = 0; c < identify::kChannels; ++c) {
+    const double power = of.of_channel[c];
+    if (power < 0) continue;
+    Floor floor = floor_of_channel(nominal, c);
+    // A mean square of few readings scatters by itself.
+    if (of.readings_of_channel[c] > 0)
+      floor.std = std::hypot(floor.std, floor.mean * std::sqrt(2 / of.readings_of_channel[c]));
+    // One of several tells nothing of the scatter among them.
+    if ((floor.count == 1 && nominal.size() > 1) || power <= floor.limit(kNominalFactor)) continue;
+    const double z = (power - floor.mean) / std::max(floor.std, 0.02 * floor.mean);
+    louder.push_back({std::string(identify::kChannelDescriptions[c].name), "whole recording", power, floor.mean,
+                      std::string(kUnit), std::erfc(std::min(z, 30.0) / std::numbers::sqrt2)});
+  }
+  std::sort(louder.begin(), louder.end(),
+            [](const auto& a, const auto& b) { return a.gap / a.floor > b.gap / b.floor; });
+  return louder;
+}
 
 void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const auto& [library, bank, found, after, held_out, closure] = evidence;

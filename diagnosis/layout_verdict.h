@@ -3,12 +3,17 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "diagnosis/held_out.h"
 #include "diagnosis/nominal_bank.h"
 #include "gap/verdict/diagnosis.h"
 
 namespace navcal::diagnosis {
+
+/// Channels whose noise power exceeds that of nominal recordings, most first.
+[[nodiscard]] std::vector<gap::WhereEntry> louder_channels(const RecordingPower& power,
+                                                           std::span<const RecordingPower> nominal);
 
 /// What a verdict rests on. The parts must outlive it.
 struct LayoutEvidence {

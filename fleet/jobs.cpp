@@ -4,12 +4,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdint>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <variant>
 
 #include "analysis/calibrate_run.h"

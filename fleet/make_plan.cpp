@@ -9,7 +9,6 @@
 #include <optional>
 #include <set>
 #include <system_error>
-#include <thread>
 #include <tuple>
 
 #include "analysis/failure.h"

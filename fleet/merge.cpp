@@ -7,8 +7,6 @@
 #include <optional>
 
 #include "analysis/failure.h"
-#include "fleet/database.h"
-#include "fleet/result_store.h"
 #include "fleet/whole_writing.h"
 
 namespace navcal::fleet {

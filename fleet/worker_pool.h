@@ -2,12 +2,24 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "fleet/plan.h"
-#include "fleet/task_run.h"
+#include "fleet/result_store.h"
 
 namespace navcal::fleet {
+
+/// How an attempt at a task ended.
+struct Attempt {
+  TaskState state = TaskState::open;
+  std::string why;  ///< the error; of an open task, why there is no result
+};
+
+/// Does a task in this process and keeps its result. A task that has one is not done again. An error that the
+/// recording causes is a result. What the machine causes (a full disk, a file that is gone) is none: the task
+/// stays open and can be tried again.
+[[nodiscard]] Attempt run_task(const Plan& plan, const Task& task, unsigned threads);
 
 struct PoolOptions {
   unsigned jobs = 1;     ///< tasks at a time

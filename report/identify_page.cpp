@@ -2,11 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/html_page.h"
 #include "report/identify_report.h"
-#include "report/identify_words.h"
 #include "report/svg_plot.h"
 
 namespace navcal::report {

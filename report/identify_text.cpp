@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "report/identify_report.h"
-#include "report/identify_words.h"
+#include "report/wrapped_text.h"
 
 namespace navcal::report {
 
@@ -35,17 +33,9 @@ std::string manoeuvre_sentence(const identify::ManoeuvreAdvice& advice) {
 std::string identify_text(const identify::Identification& found) {
   std::vector<std::vector<std::string>> rows{identify_heads()};
   for (const auto& one : found.parameters) rows.push_back(identify_row(one, "+-"));
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
   std::string out = fmt::format("{:.0f} s of recordings, {} steps{}\n\n", found.seconds, found.iterations,
                                 found.converged ? "" : ", not settled");
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-  }
+  for (const std::string& line : table_lines(rows, rows.front().size())) out += line;
   out += '\n' + rms_sentence("these recordings", found.fitted) + '\n';
   if (found.held_out) out += rms_sentence("held-out recordings", *found.held_out) + '\n';
   out += fmt::format("\nunknown forces that last for {:.0f} s, over mass:\n", found.disturbance_tau_s);

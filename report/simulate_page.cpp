@@ -6,10 +6,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "analysis/simulate_history.h"
 #include "base/angles.h"
 #include "pipeline/nav_reading.h"
 #include "report/heading_axis.h"

@@ -12,6 +12,7 @@
 #include "devices/instrument_model.h"
 #include "report/html_page.h"
 #include "report/svg_plot.h"
+#include "report/wrapped_text.h"
 #include "validation/score.h"
 
 namespace navcal::report {
@@ -186,15 +187,9 @@ std::vector<std::string> surfacing_sentences(const SurfacingStatistics& statisti
 std::string surfacings_text(const std::vector<analysis::RecordedSurfacing>& surfacings) {
   std::vector<std::vector<std::string>> rows{surfacing_heads()};
   for (const auto& found : surfacings) rows.push_back(surfacing_row(found));
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
   std::string out;
-  for (const auto& row : rows) {
-    if (surfacings.empty()) break;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      out += fmt::format("{:>{}}{}", row[i], widths[i], i + 1 < row.size() ? "  " : "\n");
+  if (!surfacings.empty()) {
+    for (const std::string& line : table_lines(rows, 0)) out += line;
   }
   for (const auto& sentence : surfacing_sentences(statistics_of(surfacings))) out += sentence + '\n';
   return out;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/wrapped_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace navcal::report {
@@ -21,6 +23,23 @@ void append_wrapped(std::string& out, std::size_t indent, const std::vector<std:
     begins = false;
   }
   out += '\n';
+}
+
+std::vector<std::string> table_lines(const std::vector<std::vector<std::string>>& rows, std::size_t left) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::vector<std::string> lines;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i > 0) line += "  ";
+      line += i < left ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]);
+    }
+    lines.push_back(line.substr(0, line.find_last_not_of(' ') + 1) + '\n');
+  }
+  return lines;
 }
 
 std::string printable(std::string_view text) {

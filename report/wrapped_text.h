@@ -16,6 +16,11 @@ inline constexpr std::size_t kLineWidth = 110;
 void append_wrapped(std::string& out, std::size_t indent, const std::vector<std::string>& pieces,
                     std::string_view between);
 
+/// Rows of cells as lines: columns as wide as their widest cell and two spaces apart, the first `left` of them
+/// written from the left, the others from the right. No spaces at the end of a line.
+[[nodiscard]] std::vector<std::string> table_lines(const std::vector<std::vector<std::string>>& rows,
+                                                   std::size_t left);
+
 /// The text with spaces in place of control characters, which would end a line or a comment.
 [[nodiscard]] std::string printable(std::string_view text);
 

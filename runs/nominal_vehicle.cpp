@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "base/square.h"
-#include "runs/scatter.h"
 
 namespace navcal::runs {
 namespace {

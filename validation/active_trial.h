@@ -13,7 +13,6 @@
 
 #include "validation/answer.h"
 #include "validation/cases.h"
-#include "validation/commitment.h"
 
 namespace navcal::validation {
 

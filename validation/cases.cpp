@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validation/cases.h"
 
+#include <sys/random.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <system_error>
+#include <utility>
 
+#include "record/content_hash.h"
 #include "validation/confounded_effects.h"
-#include "validation/missions.h"
 
 namespace navcal::validation {
 namespace {
+
+std::string fresh_salt() {
+  std::array<unsigned char, 32> bytes{};
+  // So few bytes come whole, or not at all (getrandom(2)).
+  while (::getrandom(bytes.data(), bytes.size(), 0) < 0) {
+    if (errno != EINTR) throw std::system_error(errno, std::system_category(), "getrandom");
+  }
+  return record::hexadecimal(bytes);
+}
 
 constexpr double kTolerance = 0.02, kLooseTolerance = 0.06;
 /// Orders of drawing lie apart from the cases themselves.
@@ -87,6 +101,12 @@ nlohmann::ordered_json json_of(const reference::Effect& effect) {
 }
 
 }  // namespace
+
+Commitment commitment_to(std::string truth) {
+  Commitment seal{std::move(truth), fresh_salt(), {}};
+  seal.digest = record::sha256_of(seal.truth + seal.salt);
+  return seal;
+}
 
 bool TrialCase::in_library() const { return arm != TrialArm::foreign && arm != TrialArm::removed; }
 

@@ -13,6 +13,17 @@
 
 namespace navcal::validation {
 
+/// A truth that is fixed before anybody answers: the digest (SHA-256, record/content_hash.h) is published first,
+/// truth and salt after the last answer, and then everybody can reckon that digest = SHA-256(truth salt), the two
+/// texts one after the other. Without the salt the few possible truths could be tried one by one.
+struct Commitment {
+  std::string truth;
+  std::string salt;  ///< 32 random bytes of the kernel, in hexadecimal
+  std::string digest;
+};
+
+[[nodiscard]] Commitment commitment_to(std::string truth);
+
 /// Truth of one case, which a diagnosis must not know before it has answered.
 struct TrialCase {
   int number = 1;  ///< from 1

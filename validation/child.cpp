@@ -9,9 +9,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
-
 #include "base/interruptible.h"
 
 // Not Boost.Process: version 1 waits with a timeout by forking, version 2 (new in 1.81) needs Boost.Filesystem and

@@ -8,8 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "validation/missions.h"
-
 namespace navcal::validation {
 namespace {
 

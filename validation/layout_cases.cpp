@@ -6,7 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "validation/missions.h"
 #include "validation/reference/effects.h"
 #include "validation/reference/thrusters/outputs.h"
 

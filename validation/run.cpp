@@ -9,7 +9,6 @@
 #include <exception>
 #include <fstream>
 #include <mutex>
-#include <optional>
 #include <set>
 #include <stdexcept>
 #include <thread>

@@ -12,7 +12,6 @@
 #include "web/hub.h"
 #include "web/page_state.h"
 #include "web/peer.h"
-#include "web/player.h"
 
 namespace navcal::web {
 

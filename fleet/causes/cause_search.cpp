@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 

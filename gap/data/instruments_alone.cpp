@@ -5,7 +5,6 @@
 
 #include "pipeline/pipeline.h"
 #include "record/port_matching.h"
-#include "record/recording.h"
 
 namespace navcal::gap {
 namespace {

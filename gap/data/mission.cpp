@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <utility>
 
 #include "base/angles.h"
@@ -16,7 +15,6 @@
 #include "protocols/motor_card.h"
 #include "record/json/flat_json.h"
 #include "record/port_matching.h"
-#include "record/recording.h"
 
 namespace navcal::gap {
 namespace {

@@ -9,10 +9,23 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "base/parallel.h"
+#include "gap/inference/linearised.h"
+#include "gap/replay/replay.h"
 #include "sim/vehicle/body.h"
 
 namespace navcal::gap {
 namespace {
+
+/// Part of a mission that a time belongs to; -1 before the first.
+std::ptrdiff_t part_at(std::span<const double> began_s, double time_s) {
+  return std::upper_bound(began_s.begin(), began_s.end(), time_s) - began_s.begin() - 1;
+}
+
+/// Adds X_i^T X_i of the rows of each part.
+void add_rows(const Eigen::MatrixXd& design, Eigen::Index from, Eigen::Index count, Eigen::MatrixXd& gram) {
+  if (count > 0) gram.noalias() += design.middleRows(from, count).transpose() * design.middleRows(from, count);
+}
 
 /// Error bound at which a mission that separates needs no more manoeuvres: about 80 nats between all pairs,
 /// several times what decides, because predictions are not exact.
@@ -43,6 +56,37 @@ std::vector<double> part_begins(const Plan& plan) {
 }
 
 }  // namespace
+
+Rehearsal rehearse(const RehearsalProblem& problem, const config::Mission& mission, double duration_s,
+                   std::span<const double> part_began_s) {
+  const Mission readings = planned_readings(problem.vehicle, mission, problem.instruments, duration_s);
+  const Replay replay(readings, problem.vehicle);
+  Trajectory10Hz course;
+  (void)replay.run(Model{}, &course);
+  const Eigen::VectorXd& at = problem.at;
+  const Linearised linear = linearise({replay, problem.library, problem.whitening, problem.threads}, at);
+  Rehearsal rehearsal;
+  rehearsal.gram = linear.gram;
+  rehearsal.parts.assign(part_began_s.size(), Eigen::MatrixXd::Zero(at.size(), at.size()));
+  if (part_began_s.empty() || course.time_s.empty()) return rehearsal;
+  base::in_parallel(problem.threads, part_began_s.size(), [&](std::size_t part) {
+    const auto row_of = [&](double time_s) {
+      const auto interval = std::lower_bound(course.time_s.begin(), course.time_s.end(), time_s);
+      return std::min<Eigen::Index>(interval - course.time_s.begin(), replay.intervals());
+    };
+    const Eigen::Index from = row_of(part_began_s[part]);
+    const Eigen::Index until =
+        part + 1 < part_began_s.size() ? row_of(part_began_s[part + 1]) : replay.intervals();
+    Eigen::MatrixXd& gram = rehearsal.parts[part];
+    add_rows(linear.design, from * kEvidenceChannels, (until - from) * kEvidenceChannels, gram);
+    const Eigen::Index fixes = replay.intervals() * kEvidenceChannels;
+    for (std::size_t i = 0; i < readings.fixes.size(); ++i) {
+      if (part_at(part_began_s, readings.fixes[i].time_s) != static_cast<std::ptrdiff_t>(part)) continue;
+      add_rows(linear.design, fixes + static_cast<Eigen::Index>(i) * kFixChannels, kFixChannels, gram);
+    }
+  });
+  return rehearsal;
+}
 
 Planner::Planner(const Question& question, const RehearsalProblem& problem, const config::MissionLimits& limits,
                  const Progress& progress)

@@ -2,7 +2,6 @@
 #include "gap/inference/blocks.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "gap/inference/evidence.h"
 #include "gap/inference/model_fit.h"

@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
 namespace navcal::gap {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "gap/actuators/linked_actuators.h"
+#include "gap/actuators/actuator_track.h"
 #include "gap/replay/predicted_instruments.h"
 #include "gap/replay/replay.h"
 #include "gap/replay/state_history.h"

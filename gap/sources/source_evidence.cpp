@@ -2,16 +2,74 @@
 #include "gap/sources/source_evidence.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <utility>
 
+#include "base/parallel.h"
 #include "gap/thresholds.h"
 
 namespace navcal::gap {
+
+ToleranceSpace::ToleranceSpace(const Linearised& nominal, const Priors& priors)
+    : residual_(residual_at_zero(nominal)) {
+  const Eigen::MatrixXd inner = priors.spike.asDiagonal() * nominal.gram * priors.spike.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inner);
+  // Directions in which the tolerances show less than a twentieth of the noise explain nothing.
+  constexpr double kLeast = 1.0 / 400;
+  Eigen::Index first = 0;
+  while (first < inner.rows() && eigen.eigenvalues()[first] < kLeast) ++first;
+  const Eigen::VectorXd power = eigen.eigenvalues().tail(inner.rows() - first);
+  const Eigen::MatrixXd directions = priors.spike.asDiagonal() * eigen.eigenvectors().rightCols(power.size()) *
+                                     power.cwiseSqrt().cwiseInverse().asDiagonal();
+  basis_ = nominal.design * directions;
+  share_ = power.array() / (1 + power.array());
+  scaled_score_ = share_.cwiseProduct(basis_.transpose() * residual_);
+}
+
+MarginalTraces ToleranceSpace::marginalised(const Eigen::MatrixXd& traces) const {
+  const Eigen::MatrixXd shared = basis_.transpose() * traces;
+  return {traces.transpose() * traces - shared.transpose() * share_.asDiagonal() * shared,
+          traces.transpose() * residual_ - shared.transpose() * scaled_score_};
+}
+
 namespace {
+
+/// Step of the finite difference, typical values.
+constexpr double kErrorStep = 0.2;
+
+/// The columns of the innovations in which an error stays. Empty: the estimator spreads it over all of them.
+struct OwnChannels {
+  std::vector<Eigen::Index> grid, fixes;
+};
+OwnChannels own_channels(ErrorPlace place) {
+  const auto from = [place](ErrorPlace first) {
+    return static_cast<Eigen::Index>(place) - static_cast<Eigen::Index>(first);
+  };
+  switch (place) {
+    case ErrorPlace::force_x:
+    case ErrorPlace::force_y:
+    case ErrorPlace::force_z: return {{force_x + from(ErrorPlace::force_x)}, {}};
+    case ErrorPlace::depth: return {{Channel::depth}, {}};
+    case ErrorPlace::position_north:
+    case ErrorPlace::position_east: return {{}, {fix_north + from(ErrorPlace::position_north)}};
+    case ErrorPlace::velocity_north:
+    case ErrorPlace::velocity_east: return {{}, {velocity_north + from(ErrorPlace::velocity_north)}};
+    case ErrorPlace::current_north:
+    case ErrorPlace::current_east:
+      return {{}, {fix_north + from(ErrorPlace::current_north), velocity_north + from(ErrorPlace::current_north)}};
+    default: return {};
+  }
+}
+
+/// Innovations of the nominal vehicle, with those of another one in some columns.
+Innovations with_columns_of(const Innovations& other, const OwnChannels& own, Innovations nominal) {
+  for (const Eigen::Index c : own.grid) nominal.grid.col(c) = other.grid.col(c);
+  for (const Eigen::Index c : own.fixes) nominal.fixes.col(c) = other.fixes.col(c);
+  return nominal;
+}
 
 /// Standard deviations of the prior of a coefficient, in typical values of its component.
 constexpr std::array<double, 3> kCoefficients{0.1, 0.5, 2.5};
@@ -126,6 +184,64 @@ std::vector<Series> series_for(const SourcesTogether& sources, std::span<const C
 }
 
 }  // namespace
+
+std::vector<SourcesTogether> by_replays(std::span<const ErrorSource* const> sources, const Mission& mission) {
+  std::vector<SourcesTogether> all;
+  SourcesTogether followers;
+  for (const ErrorSource* source : sources) {
+    const ErrorPlace place = source->components.front().place;
+    const OwnChannels own = own_channels(place);
+    // A current shows in the channels in which the receiver's errors show.
+    const bool alone = (own.grid.empty() && own.fixes.empty()) || place == ErrorPlace::current_north;
+    if (alone || !mission.silences.empty()) {
+      all.push_back({source});
+    } else {
+      followers.push_back(source);
+    }
+  }
+  if (!followers.empty()) all.push_back(std::move(followers));
+  return all;
+}
+
+ErrorTraces::ErrorTraces(const ResidualModel& model, const Eigen::VectorXd& at, double begin_s)
+    : model_(model), about_(model.library.model(at)), begin_s_(begin_s),
+      nominal_(model.replay.run_coarsely(about_)) {}
+
+Innovations ErrorTraces::innovations_with(std::span<const ErrorComponent* const> components,
+                                          const std::shared_ptr<const Eigen::VectorXd>& series) const {
+  Model model = about_;
+  for (const ErrorComponent* component : components) {
+    const double amplitude = kErrorStep * component->typical;
+    model.effects.add(std::make_unique<TimedError>(component->place, series, begin_s_))
+        .set_parameters(std::span(&amplitude, 1));
+  }
+  return model_.replay.run_coarsely(model);
+}
+
+Eigen::MatrixXd ErrorTraces::of(const std::vector<const ErrorComponent*>& components, bool in_one_replay,
+                                const std::vector<Series>& series) const {
+  const Layout layout = layout_of(model_.replay);
+  const Eigen::VectorXd white = model_.whitening(nominal_, layout);
+  const auto count = static_cast<Eigen::Index>(series.size());
+  Eigen::MatrixXd traces(white.size(), static_cast<Eigen::Index>(components.size()) * count);
+  const auto write = [&](const Innovations& with, std::size_t component, std::size_t k) {
+    traces.col(static_cast<Eigen::Index>(component) * count + static_cast<Eigen::Index>(k)) =
+        (white - model_.whitening(with, layout)) / (kErrorStep * components[component]->typical);
+  };
+  const std::size_t replays = in_one_replay ? 1 : components.size();
+  base::in_parallel(model_.threads, replays * series.size(), [&](std::size_t i) {
+    const std::size_t k = i % series.size(), c = i / series.size();
+    if (!in_one_replay) {
+      write(innovations_with(std::span(&components[c], 1), series[k].values), c, k);
+      return;
+    }
+    const Innovations together = innovations_with(components, series[k].values);
+    for (std::size_t each = 0; each < components.size(); ++each) {
+      write(with_columns_of(together, own_channels(components[each]->place), nominal_), each, k);
+    }
+  });
+  return traces;
+}
 
 SourceEvidence::SourceEvidence(const SourceProblem& problem)
     : problem_(problem), tolerances_(problem.nominal, problem.priors),

@@ -7,15 +7,20 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "gap/inference/subset_evidence.h"
 #include "gap/replay/regimes.h"
 #include "gap/thresholds.h"
-#include "gap/verdict/advice.h"
 
 namespace navcal::gap {
+
+std::string tie_breaker(const sim::EffectDescription& one, const sim::EffectDescription& other) {
+  const std::string_view first = one.manoeuvre.text(), second = other.manoeuvre.text();
+  if (first == second) return std::string(first);
+  return std::string(first) + "; and " + std::string(second);
+}
+
 namespace {
 
 std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found, const Library& library,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -9,8 +10,12 @@
 #include "gap/verdict/diagnosis.h"
 #include "gap/verdict/find_effects.h"
 #include "gap/verdict/holdout.h"
+#include "sim/effects/description.h"
 
 namespace navcal::gap {
+
+/// Manoeuvres that separate two effects, as text.
+[[nodiscard]] std::string tie_breaker(const sim::EffectDescription& one, const sim::EffectDescription& other);
 
 /// Writes the effects of the verdict, or the candidates where there is none, and the effects that each may be
 /// confused with.

@@ -2,7 +2,6 @@
 #include "gap/verdict/information.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "gap/actuators/command_check.h"
 #include "gap/inference/linearised.h"

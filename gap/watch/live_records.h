@@ -2,13 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string_view>
 
+#include "config/settings.h"
 #include "gap/watch/watch.h"
 #include "pipeline/pipeline.h"
 
 namespace navcal::gap {
+
+/// Hands a capture or a log to a watch as if it came now. `settings`: as for load_mission(). `go_on` is called
+/// with the share that is done; false ends it. Throws record::BadRecording.
+void watch_recording(const std::filesystem::path& file, const std::optional<config::Settings>& settings,
+                     Watch& watch, const std::function<bool(double)>& go_on);
 
 /// Request to a daemon for the lines that LiveRecords reads (docs/status-protocol.md, RECORD), with its newline.
 [[nodiscard]] std::string_view live_request();

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <functional>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "identify/data/actuator_inputs.h"
 #include "identify/data/recorded_motion.h"

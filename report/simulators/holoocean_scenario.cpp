@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Geometry>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/angles.h"

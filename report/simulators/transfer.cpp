@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "report/gap_words.h"
 #include "report/wrapped_text.h"

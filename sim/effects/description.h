@@ -93,4 +93,20 @@ struct EffectDescription {
   EffectKind kind = EffectKind::amount;
 };
 
+/// Members of EffectDescription that most effects leave as they are.
+struct EffectTraits {
+  ShortList<std::string_view, 4> confounders = {};
+  EffectPlace place = EffectPlace::instruments;
+  std::size_t vector = 1;
+  int order = 3;
+  EffectKind kind = EffectKind::amount;
+};
+
+[[nodiscard]] constexpr EffectDescription described(std::string_view name, std::string_view equation,
+                                                    const ShortList<EffectParameter, 12>& parameters,
+                                                    TellingManoeuvre manoeuvre, const EffectTraits& traits = {}) {
+  return {name,         equation,      parameters,   manoeuvre,  traits.confounders,
+          traits.place, traits.vector, traits.order, traits.kind};
+}
+
 }  // namespace navcal::sim

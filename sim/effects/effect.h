@@ -4,15 +4,69 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdint>
 #include <memory>
 #include <span>
 
 #include "sim/effects/description.h"
-#include "sim/effects/instant.h"
-#include "sim/effects/places.h"
+#include "sim/rotation.h"
+#include "sim/state.h"
 #include "sim/vehicle/influences.h"
 
 namespace navcal::sim {
+
+/// Input of an effect at one instant. It contains nothing measured, so the diagnosis can differentiate an
+/// effect at predicted, noise-free values.
+struct Instant {
+  double time_s = 0;  ///< since the beginning of the mission
+  const State& state;
+  double electronics_C = base::reference::kTemperature_C;  ///< temperature of the electronics
+
+  /// Temperature of the electronics above the reference of the temperature coefficients.
+  [[nodiscard]] double temperature_rise_C() const { return electronics_C - base::reference::kTemperature_C; }
+  /// Acceleration of the body's origin relative to the world, in body axes: the specific force plus gravity.
+  [[nodiscard]] Vector3 acceleration_m_s2() const {
+    const Vector3 gravity = transpose(R_world_from_body(state.euler_rad)) * Vector3{0, 0, kGravity_m_s2};
+    Vector3 result = state.specific_force_m_s2;
+    for (std::size_t i = 0; i < 3; ++i) result[i] += gravity[i];
+    return result;
+  }
+};
+
+/// Tilt that the inclinometer senses or reports.
+struct Tilt {
+  double roll_rad = 0, pitch_rad = 0;
+};
+
+/// Gyro rates of the inertial card, in the order of its channels: A-x, A-z, B-y, B-z.
+using GyroRates = std::array<double, 4>;
+/// Body axis that each of these gyros senses.
+inline constexpr std::array<std::size_t, 4> kGyroAxes{0, 2, 1, 2};
+
+/// All channels of the inertial card as its converter sees them.
+using CardVoltages_mV = std::array<double, 8>;
+
+/// Motion of the GPS antenna, in world axes.
+struct AntennaMotion {
+  Vector3 position_m{};
+  Vector3 velocity_m_s{};
+};
+
+/// Extra age of an instrument's data relative to their time, beyond its nominal latency.
+struct Delays {
+  double card_s = 0;
+  double gps_s = 0;
+};
+
+enum class Instrument : std::uint8_t { compass, imu, gps, motor };
+inline constexpr std::size_t kInstruments = 4;
+
+/// Transmission of a frame over its line.
+struct Transmission {
+  int copies = 1;           ///< 0: it is lost
+  double late_s = 0;        ///< the host takes it so much later
+  double held_until_s = 0;  ///< the host takes nothing before this time of the mission
+};
 
 /// One departure from the nominal model, by a few parameters. Each hook is called in order of its own instrument's
 /// time and changes what it is handed; those that are not overridden change nothing. The result depends only on

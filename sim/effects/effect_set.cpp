@@ -2,7 +2,6 @@
 #include "sim/effects/effect_set.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace navcal::sim {
 

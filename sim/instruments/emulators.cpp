@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/instruments/emulators.h"
 
+#include <string>
+
 #include "protocols/device_types.h"
+#include "protocols/samples_line.h"
 #include "sim/instruments/doppler_devices.h"
 #include "sim/instruments/imu_card.h"
 #include "sim/instruments/mip_unit.h"
@@ -9,13 +12,73 @@
 #include "sim/instruments/oncore.h"
 #include "sim/instruments/pni_unit.h"
 #include "sim/instruments/pressure_gauges.h"
-#include "sim/instruments/sample_sender.h"
 #include "sim/instruments/tcm2.h"
 #include "sim/instruments/ubx_receiver.h"
 #include "sim/instruments/vectornav.h"
+#include "sim/noise.h"
 
 namespace navcal::sim {
 namespace {
+
+constexpr double kSender_Hz = 5;
+constexpr std::uint64_t kTicksPerTemperature = 5;
+constexpr std::int64_t kSenderTimeStd_ns = 1'000'000;
+
+using protocols::samples_line::LineWriter;
+
+LineWriter line_at(std::string_view class_name, std::int64_t t_ns) {
+  LineWriter line(class_name);
+  line.seconds("time", t_ns).seconds("time_std", kSenderTimeStd_ns);
+  return line;
+}
+
+/// A program that sends samples as lines (ICD section 13), each with its time of validity: a Doppler log with
+/// bottom lock and a pressure gauge five times a second, and a mission sensor of the water's temperature once a
+/// second.
+class SampleSender final : public LineDevice {
+ public:
+  struct Options {
+    double velocity_noise_m_s = 0.005;
+    double depth_noise_m = 0.01;
+    double temperature_noise_C = 0.01;
+    std::uint64_t seed = 1;
+    int baud = 4'000'000;
+  };
+  SampleSender(const Options& options, const Motion& motion)
+      : LineDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
+
+  void power_on(std::int64_t t_ns) override { ticks_ = Ticks(t_ns, 1 / kSender_Hz, 0); }
+
+ private:
+  void act(std::int64_t t_ns, std::vector<Emission>& out) override {
+    const State state = motion_.at(t_ns);
+    Vector3 velocity_m_s = state.velocity_body_m_s;
+    for (double& component : velocity_m_s) component += noise_.normal(options_.velocity_noise_m_s);
+    std::string lines = line_at("DVL", t_ns)
+                            .text("frame", "body")
+                            .vector("bottom_velocity_m_s", velocity_m_s)
+                            .number("bottom_velocity_std_m_s", options_.velocity_noise_m_s)
+                            .finish();
+    lines += line_at("DEPTH", t_ns)
+                 .number("depth_m", state.position_m[2] + noise_.normal(options_.depth_noise_m))
+                 .number("depth_std_m", options_.depth_noise_m)
+                 .finish();
+    if (sent_++ % kTicksPerTemperature == 0) {
+      lines += line_at("SENSOR", t_ns)
+                   .text("quantity", "temperature")
+                   .text("unit", "degC")
+                   .number("value", state.water_temperature_C + noise_.normal(options_.temperature_noise_C))
+                   .finish();
+    }
+    send(t_ns, {lines.begin(), lines.end()}, out);
+    ticks_.pass();
+  }
+
+  Options options_;
+  const Motion& motion_;
+  Noise noise_;
+  std::uint64_t sent_ = 0;
+};
 
 using protocols::Protocol;
 

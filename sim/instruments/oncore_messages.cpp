@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
 #include "protocols/nmea_vehicle.h"
 #include "protocols/oncore_encode.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/layout/actuators.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "autopilot/thrust_curve.h"

@@ -8,8 +8,7 @@
 #include <numbers>
 
 #include "base/gravity.h"
-#include "sim/layout/added_mass.h"
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/layout/restoring.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 #include "sim/layout/vector_of.h"
 
 namespace navcal::sim {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/gap_trial.h"
+#include "cli/commands.h"
 #include "gap/verdict/request.h"
 #include "gap/verdict/study.h"
 #include "report/gap_report.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/gap_trial.h"
+#include "cli/commands.h"
 #include "record/content_hash.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/markup.h"

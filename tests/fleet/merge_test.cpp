@@ -7,7 +7,7 @@
 
 #include "fleet/database.h"
 #include "fleet/plan_report.h"
-#include "fleet/task_run.h"
+#include "fleet/worker_pool.h"
 #include "tests/fleet/fleet_folder.h"
 
 namespace navcal::fleet {

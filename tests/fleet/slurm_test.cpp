@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/command_output.h"
 #include "fleet/slurm_run.h"
 #include "fleet/worker_pool.h"
 #include "tests/fleet/fleet_folder.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as a null bank's file, or a good one in which some are changed: nothing, or a bank that can be used.
-#include "gap/nulls/bank_file.h"
-
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
+#include "gap/nulls/bank_cache.h"
 #include "gap/replay/regimes.h"
 #include "tests/fuzz/source.h"
 #include "tests/fuzz/target.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "config/layout.h"
-#include "identify/answer/simulated_motion.h"
+#include "identify/answer/manoeuvres.h"
 #include "identify/parameters.h"
 
 namespace navcal::identify {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validation/commitment.h"
-
 #include <gtest/gtest.h>
 
 #include "record/content_hash.h"
+#include "validation/cases.h"
 
 namespace navcal::cli {
 namespace {

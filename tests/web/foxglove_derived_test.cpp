@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/rotation.h"
-#include "web/foxglove/derived.h"
+#include "web/foxglove/channels.h"
 
 namespace navcal::web::foxglove {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/web/foxglove_link.h"
-#include "web/foxglove/drop_count.h"
+#include "web/foxglove/peer.h"
 #include "web/foxglove/protocol.h"
 #include "web/foxglove/schemas.h"
 

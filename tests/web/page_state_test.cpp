@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "web/page_track.h"
-
 namespace navcal::web {
 namespace {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "web/simulated_track.h"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/temporary_folder.h"
+#include "web/page.h"
 
 namespace navcal::web {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/compass.h"
 
-#include <cmath>
-
 #include "protocols/tcm2_word.h"
 
 namespace navcal::reference {

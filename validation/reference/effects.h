@@ -60,6 +60,13 @@ struct EffectKind {
   double* (*field)(ParameterDeviations&) = nullptr;  ///< of the first parameter; the others follow it
 };
 
+/// A row of the tables below.
+[[nodiscard]] inline EffectKind effect_kind(std::string_view name, Trace trace,
+                                            std::vector<std::string_view> parameters, const Size& size,
+                                            double* (*field)(ParameterDeviations&)) {
+  return {name, trace, std::move(parameters), size, field};
+}
+
 /// The effects that the diagnosis knows too, in the order of docs/trial.md.
 [[nodiscard]] std::span<const EffectKind> library_effects();
 /// The effects that no library contains: a diagnosis must answer unknown.

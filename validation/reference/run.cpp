@@ -7,21 +7,78 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "protocols/motor_card.h"
 #include "validation/reference/card.h"
 #include "validation/reference/compass.h"
-#include "validation/reference/mission.h"
-#include "validation/reference/motor.h"
 #include "validation/reference/receiver.h"
-#include "validation/reference/sink.h"
+#include "validation/reference/world.h"
 
 namespace navcal::reference {
 namespace {
+
+namespace motor_wire = protocols::motor_card;
+constexpr double kMotorPeriod_s = 0.1, kMotorLatency_s = 0.005;
+constexpr double kFinNoise_deg = 0.1, kCurrentNoise_A = 0.02;
+
+/// Motor card (ICD section 4): shaft speed, angles of the servos' shafts, current; 10 Hz, 5 ms from measurement to
+/// the first byte. It takes the helmsman's orders as they can be written: whole rpm, tenths of a degree.
+class Motor final : public Instrument {
+ public:
+  explicit Motor(const Fitting& fitting)
+      : Instrument(fitting, Port::motor, kMotorPeriod_s, kMotorLatency_s), start_ns_(fitting.start_ns),
+        sequence_(static_cast<std::uint8_t>(dice().bits())) {}
+
+  /// Writes the order to the card, when it is a new one, and sets servos and shaft going.
+  void order(double shaft_rev_s, const Vector3& fins_rad, World& world, std::vector<Transfer>& out) {
+    const int rpm = static_cast<int>(std::lround(60 * shaft_rev_s));
+    Eigen::Vector3i tenths_deg;
+    for (int i = 0; i < 3; ++i) {
+      const double tenths = std::round(fins_rad(i) / kDegree * 10);
+      tenths_deg(i) =
+          static_cast<int>(std::clamp(tenths, -10 * motor_wire::kFinLimit_deg, 10 * motor_wire::kFinLimit_deg));
+    }
+    if (rpm == rpm_ && tenths_deg == tenths_deg_) return;
+    rpm_ = rpm;
+    tenths_deg_ = tenths_deg;
+    world.vehicle().command(rpm_ / 60.0, tenths_deg_.cast<double>() * (0.1 * kDegree));
+    const motor_wire::Command command{rpm_, {tenths_deg(0) / 10.0, tenths_deg(1) / 10.0, tenths_deg(2) / 10.0}};
+    out.push_back({Port::motor, true, start_ns_ + std::llround(world.now().time_s * 1e9),
+                   motor_wire::encode_command(command)});
+  }
+
+ private:
+  std::vector<std::uint8_t> sample(const History& history, double time_s) override {
+    const Snapshot s = history.at(time_s);
+    motor_wire::Status status;
+    status.sequence = sequence_++;
+    status.rpm_commanded = rpm_;
+    status.rpm = static_cast<std::int32_t>(std::lround(60 * s.shaft_rev_s));
+    for (int i = 0; i < 3; ++i)
+      status.fins_deg[static_cast<std::size_t>(i)] = s.servos_rad(i) / kDegree + noise(kFinNoise_deg);
+    status.current_A = s.motor_current_A + noise(kCurrentNoise_A);
+    return motor_wire::encode_status(status);
+  }
+
+  std::int64_t start_ns_;
+  int rpm_ = 0;
+  Eigen::Vector3i tenths_deg_ = Eigen::Vector3i::Zero();
+  std::uint8_t sequence_;
+};
 
 /// Commands of the helmsman.
 struct Controls {
   double shaft_rev_s = 0;
   Vector3 fins_rad = Vector3::Zero();
 };
+
+constexpr double kFinRange_rad = 15 * kDegree, kPitchRange_rad = 25 * kDegree;
+constexpr double kMetresPerTurn = 0.0872;  ///< of the shaft, at a steady speed
+/// Integrals are for small errors that stay: a turn or a dive must not wind them up.
+constexpr double kNear_rad = 0.2, kNear_m = 0.4;
+
+void gather(double& sum, double missed, double near) {
+  if (std::abs(missed) < near) sum += missed * Helmsman::kPeriod_s;
+}
 
 /// The vehicle's own autopilot, ten times a second. It knows nothing but what the instruments say, as a vehicle's
 /// does, so that their errors steer it:
@@ -35,41 +92,30 @@ class Helmsman {
 
   static constexpr double kPeriod_s = 0.1;
 
-  [[nodiscard]] Controls steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card);
+  [[nodiscard]] Controls steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card) {
+    double rudder = order.rudder_rad, elevator = order.elevator_rad;
+    if (order.heading_rad) {
+      const double missed =
+          std::remainder(*order.heading_rad - compass.heading_rad - variation_rad_, 2 * std::numbers::pi);
+      gather(heading_sum_, missed, kNear_rad);
+      rudder = std::clamp(0.35 * missed + 0.02 * heading_sum_ - 0.3 * card.yaw_rate_rad_s, -kFinRange_rad,
+                          kFinRange_rad);
+    }
+    if (order.depth_m) {
+      const double missed = *order.depth_m - card.depth_m;
+      gather(depth_sum_, missed, kNear_m);
+      const double pitch = std::clamp(-(0.3 * missed + 0.02 * depth_sum_), -kPitchRange_rad, kPitchRange_rad);
+      elevator = std::clamp(0.8 * (pitch - compass.pitch_rad) - 0.4 * card.pitch_rate_rad_s, -kFinRange_rad,
+                            kFinRange_rad);
+    }
+    const double shaft_rev_s = order.speed_m_s ? *order.speed_m_s / kMetresPerTurn : order.shaft_rev_s;
+    return {shaft_rev_s, FinLinkage::mixed(rudder, elevator) + order.fins_beside_rad};
+  }
 
  private:
   double variation_rad_;
   double heading_sum_ = 0, depth_sum_ = 0;  ///< integrals of what was missed
 };
-
-constexpr double kFinRange_rad = 15 * kDegree, kPitchRange_rad = 25 * kDegree;
-constexpr double kMetresPerTurn = 0.0872;  ///< of the shaft, at a steady speed
-/// Integrals are for small errors that stay: a turn or a dive must not wind them up.
-constexpr double kNear_rad = 0.2, kNear_m = 0.4;
-
-void gather(double& sum, double missed, double near) {
-  if (std::abs(missed) < near) sum += missed * Helmsman::kPeriod_s;
-}
-
-Controls Helmsman::steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card) {
-  double rudder = order.rudder_rad, elevator = order.elevator_rad;
-  if (order.heading_rad) {
-    const double missed =
-        std::remainder(*order.heading_rad - compass.heading_rad - variation_rad_, 2 * std::numbers::pi);
-    gather(heading_sum_, missed, kNear_rad);
-    rudder =
-        std::clamp(0.35 * missed + 0.02 * heading_sum_ - 0.3 * card.yaw_rate_rad_s, -kFinRange_rad, kFinRange_rad);
-  }
-  if (order.depth_m) {
-    const double missed = *order.depth_m - card.depth_m;
-    gather(depth_sum_, missed, kNear_m);
-    const double pitch = std::clamp(-(0.3 * missed + 0.02 * depth_sum_), -kPitchRange_rad, kPitchRange_rad);
-    elevator =
-        std::clamp(0.8 * (pitch - compass.pitch_rad) - 0.4 * card.pitch_rate_rad_s, -kFinRange_rad, kFinRange_rad);
-  }
-  const double shaft_rev_s = order.speed_m_s ? *order.speed_m_s / kMetresPerTurn : order.shaft_rev_s;
-  return {shaft_rev_s, FinLinkage::mixed(rudder, elevator) + order.fins_beside_rad};
-}
 
 void check(const Mission& mission) {
   if (!std::isfinite(mission.duration_s) || mission.duration_s < 0)

@@ -2,8 +2,6 @@
 #include "validation/reference/vehicle.h"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "validation/reference/dormand_prince.h"

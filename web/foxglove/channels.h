@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -8,10 +9,41 @@
 #include <tuple>
 #include <vector>
 
-#include "web/foxglove/derived.h"
+#include "base/local_plane.h"
 #include "web/hub.h"
+#include "web/record.h"
 
 namespace navcal::web::foxglove {
+
+struct Quaternion {
+  double x = 0, y = 0, z = 0, w = 1;
+};
+/// Turns vectors of "vehicle" into those of "map". Radians: heading clockwise from north, pitch nose up, roll
+/// starboard down.
+[[nodiscard]] Quaternion orientation_in_map(double heading_rad, double pitch_rad, double roll_rad);
+
+/// What one record gives; absent where it gives none.
+struct Derived {
+  std::optional<std::string> location;   ///< foxglove.LocationFix
+  std::optional<std::string> pose;       ///< foxglove.PoseInFrame
+  std::optional<std::string> transform;  ///< foxglove.FrameTransform
+  std::optional<std::string> log;        ///< foxglove.Log
+};
+
+/// Standard error that stands for an unknown one, m: so large that no filter is led by the value.
+inline constexpr double kUnknownStd_m = 1e6;
+
+class Deriver {
+ public:
+  /// `time_ns`: time of validity, UTC. A record that is no JSON object, or of another topic, gives nothing.
+  [[nodiscard]] Derived derive(const Record& record, std::int64_t time_ns);
+
+ private:
+  /// East and north of the origin, m. The first place becomes the origin, and so does one that is far from it.
+  [[nodiscard]] std::array<double, 2> position_in_map(double latitude_deg, double longitude_deg);
+
+  std::optional<base::LocalPlane> origin_;
+};
 
 /// A stream of messages that viewers may subscribe to.
 struct Channel {

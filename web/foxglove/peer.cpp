@@ -9,12 +9,14 @@
 #include <random>
 #include <set>
 
+#include "base/utc_text.h"
 #include "web/foxglove/channels.h"
-#include "web/foxglove/drop_count.h"
 #include "web/foxglove/protocol.h"
 
 namespace navcal::web::foxglove {
 namespace {
+
+constexpr std::int64_t kBetweenReports_ns = 1'000'000'000;
 
 /// A record that is older than the newest by more than this is not late: the clock stepped, or another part of a
 /// recording is played.
@@ -244,6 +246,25 @@ void Viewer::on_drained() {
 }
 
 }  // namespace
+
+void DropCount::dropped(std::int64_t now_ns) {
+  if (since_report_++ == 0) first_ns_ = now_ns;
+  last_ns_ = now_ns;
+  ++total_;
+}
+
+std::optional<std::string> DropCount::report(std::int64_t now_ns) {
+  if (since_report_ == 0) return std::nullopt;
+  // A clock that stepped back must not keep the report back.
+  if (reported_ns_ && now_ns >= *reported_ns_ && now_ns - *reported_ns_ < kBetweenReports_ns) return std::nullopt;
+  std::string words = fmt::format(
+      "{} messages were dropped from {} to {}, because this program did not read them in "
+      "time; {} since it connected",
+      since_report_, base::utc_text(first_ns_), base::utc_text(last_ns_), total_);
+  since_report_ = 0;
+  reported_ns_ = now_ns;
+  return words;
+}
 
 std::int64_t system_time_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())

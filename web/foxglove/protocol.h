@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 /// Messages of Foxglove's WebSocket protocol v1 (https://github.com/foxglove/ws-protocol, docs/spec.md), as far as

@@ -8,11 +8,9 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <vector>
 
 #include "web/outlets/chrony.h"
 #include "web/outlets/daemon_metrics.h"
-#include "web/outlets/exposition.h"
 #include "web/outlets/json_members.h"
 #include "web/outlets/mqtt_connection.h"
 

@@ -3,7 +3,10 @@
 
 #include <boost/asio/any_io_executor.hpp>
 #include <memory>
+#include <string>
+#include <string_view>
 
+#include "web/http.h"
 #include "web/hub.h"
 #include "web/live_source.h"
 #include "web/outlets/outlet_options.h"
@@ -11,6 +14,10 @@
 #include "web/site.h"
 
 namespace navcal::web {
+
+/// How BlueOS finds the page of a container: the answer to `GET /register_service`, by its ServiceMetadata.
+[[nodiscard]] std::string blueos_service(std::string_view version);
+[[nodiscard]] Handler blueos_handler(std::string_view version);
 
 /// All that other programs are served with (docs/wires.md), in one place.
 class Outlets {

@@ -4,100 +4,67 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kAccelBias{
-    .name = "accel_bias",
-    .equation = "f += b",
-    .parameters = {{"x_m_s2", 0.12, -20, 20}, {"y_m_s2", 0.12, -20, 20}, {"z_m_s2", 0.12, -20, 20}},
-    .manoeuvre = "pitch through more than 30 degrees",
-    .confounders = {"tilt_offset", "accel_scale"},
-    .vector = 3};
-
+constexpr EffectDescription kAccelBias = described(
+    "accel_bias", "f += b", {{"x_m_s2", 0.12, -20, 20}, {"y_m_s2", 0.12, -20, 20}, {"z_m_s2", 0.12, -20, 20}},
+    "pitch through more than 30 degrees", {.confounders = {"tilt_offset", "accel_scale"}, .vector = 3});
 /// The accelerometers' zeros are off.
-class AccelBias final : public EffectOf<AccelBias, kAccelBias> {
- public:
+struct AccelBias final : EffectOf<AccelBias, kAccelBias> {
   void accelerometers(const Instant&, Vector3& force_m_s2) override { add_scaled(force_m_s2, 1, vector()); }
 };
 
-constexpr EffectDescription kAccelScale{
-    .name = "accel_scale",
-    .equation = "f += s f",
-    .parameters = {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}},
-    .manoeuvre = "pitch through more than 30 degrees",
-    .confounders = {"tilt_offset", "accel_bias", "thrust_scale"}};
-
+constexpr EffectDescription kAccelScale = described(
+    "accel_scale", "f += s f", {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}},
+    "pitch through more than 30 degrees", {.confounders = {"tilt_offset", "accel_bias", "thrust_scale"}});
 /// Each accelerometer's scale is off.
-class AccelScale final : public EffectOf<AccelScale, kAccelScale> {
- public:
+struct AccelScale final : EffectOf<AccelScale, kAccelScale> {
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     for (std::size_t i = 0; i < 3; ++i) force_m_s2[i] += p_[i] * now.state.specific_force_m_s2[i];
   }
 };
 
-constexpr EffectDescription kAccelVibration{
-    .name = "accel_vibration",
-    .equation = "f += k I^2",
-    .parameters = {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}},
-    .manoeuvre = "step the shaft speed through its whole range, straight and level",
-    .confounders = {"adc_droop"},
-    .vector = 3};
-
+constexpr EffectDescription kAccelVibration =
+    described("accel_vibration", "f += k I^2",
+              {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}},
+              "step the shaft speed through its whole range, straight and level",
+              {.confounders = {"adc_droop"}, .vector = 3});
 /// The motor's vibration is rectified by the accelerometers.
-class AccelVibration final : public EffectOf<AccelVibration, kAccelVibration> {
- public:
+struct AccelVibration final : EffectOf<AccelVibration, kAccelVibration> {
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     const double current_A = now.state.motor_current_A;
     add_scaled(force_m_s2, current_A * current_A, vector());
   }
 };
 
-constexpr EffectDescription kAdcDroop{.name = "adc_droop",
-                                      .equation = "every raw channel in mV: v *= 1 + k I",
-                                      .parameters = {{"per_A", 0.0015, -0.1, 0.1}},
-                                      .manoeuvre = "step the motor current, straight and level",
-                                      .confounders = {"motor_field", "accel_vibration"}};
-
+constexpr EffectDescription kAdcDroop =
+    described("adc_droop", "every raw channel in mV: v *= 1 + k I", {{"per_A", 0.0015, -0.1, 0.1}},
+              "step the motor current, straight and level", {.confounders = {"motor_field", "accel_vibration"}});
 /// The converter's reference follows the motor's load.
-class AdcDroop final : public EffectOf<AdcDroop, kAdcDroop> {
- public:
+struct AdcDroop final : EffectOf<AdcDroop, kAdcDroop> {
   void card_voltages(const Instant& now, CardVoltages_mV& voltages) override {
     for (double& voltage : voltages) voltage *= 1 + p_[0] * now.state.motor_current_A;
   }
 };
 
-constexpr EffectDescription kDepthScale{.name = "depth_scale",
-                                        .equation = "z += s z",
-                                        .parameters = {{"scale", 0.06, -0.9, 1}},
-                                        .manoeuvre = "hold two depths far apart",
-                                        .confounders = {"buoyancy"}};
-
+constexpr EffectDescription kDepthScale = described("depth_scale", "z += s z", {{"scale", 0.06, -0.9, 1}},
+                                                    "hold two depths far apart", {.confounders = {"buoyancy"}});
 /// The pressure gauge's scale is off.
-class DepthScale final : public EffectOf<DepthScale, kDepthScale> {
- public:
+struct DepthScale final : EffectOf<DepthScale, kDepthScale> {
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.state.position_m[2]; }
 };
 
-constexpr EffectDescription kDepthTemperature{.name = "depth_temperature",
-                                              .equation = "z += c T, T above 15 C",
-                                              .parameters = {{"m_per_C", 0.025, -1, 1}},
-                                              .manoeuvre = "hold one depth while the electronics warm up",
-                                              .confounders = {"buoyancy", "depth_scale"}};
-
+constexpr EffectDescription kDepthTemperature =
+    described("depth_temperature", "z += c T, T above 15 C", {{"m_per_C", 0.025, -1, 1}},
+              "hold one depth while the electronics warm up", {.confounders = {"buoyancy", "depth_scale"}});
 /// The pressure gauge's zero moves as the electronics warm up.
-class DepthTemperature final : public EffectOf<DepthTemperature, kDepthTemperature> {
- public:
+struct DepthTemperature final : EffectOf<DepthTemperature, kDepthTemperature> {
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.temperature_rise_C(); }
 };
 
-constexpr EffectDescription kImuLatency{.name = "imu_latency",
-                                        .equation = "x(t - tau)",
-                                        .parameters = {{"tau_s", 0.05, 0, 1}},
-                                        .manoeuvre = "fast rudder and elevator doublets",
-                                        .confounders = {"compass_lag", "fin_lag"},
-                                        .kind = EffectKind::lag};
-
+constexpr EffectDescription kImuLatency =
+    described("imu_latency", "x(t - tau)", {{"tau_s", 0.05, 0, 1}}, "fast rudder and elevator doublets",
+              {.confounders = {"compass_lag", "fin_lag"}, .kind = EffectKind::lag});
 /// All channels of the inertial card are older than nominal.
-class ImuLatency final : public EffectOf<ImuLatency, kImuLatency> {
- public:
+struct ImuLatency final : EffectOf<ImuLatency, kImuLatency> {
   void delays(Delays& more) override { more.card_s += p_[0]; }
 };
 

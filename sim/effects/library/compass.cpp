@@ -9,17 +9,11 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kCompassLag{.name = "compass_lag",
-                                        .equation = "tau m' + m = field",
-                                        .parameters = {{"tau_s", 0.2, 0, 10}},
-                                        .manoeuvre = "turn both ways at two different rates",
-                                        .confounders = {"imu_latency", "gyro_scale"},
-                                        .order = 4,
-                                        .kind = EffectKind::lag};
-
+constexpr EffectDescription kCompassLag = described(
+    "compass_lag", "tau m' + m = field", {{"tau_s", 0.2, 0, 10}}, "turn both ways at two different rates",
+    {.confounders = {"imu_latency", "gyro_scale"}, .order = 4, .kind = EffectKind::lag});
 /// The compass filters its magnetometers, hence its heading.
-class CompassLag final : public EffectOf<CompassLag, kCompassLag> {
- public:
+struct CompassLag final : EffectOf<CompassLag, kCompassLag> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     field_body_uT = filter_.at(now.time_s, field_body_uT, p_[0]);
   }
@@ -28,18 +22,13 @@ class CompassLag final : public EffectOf<CompassLag, kCompassLag> {
   LowPass filter_;
 };
 
-constexpr EffectDescription kCompassMisalignment{
-    .name = "compass_misalignment",
-    .equation = "m = (1 - [a]x) m, as a rotation",
-    .parameters = {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}},
-    .manoeuvre = "steer by GPS course and pitch up and down",
-    .confounders = {"tilt_offset", "declination", "hard_iron", "soft_iron"},
-    .vector = 3,
-    .order = 1};
-
+constexpr EffectDescription kCompassMisalignment =
+    described("compass_misalignment", "m = (1 - [a]x) m, as a rotation",
+              {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}},
+              "steer by GPS course and pitch up and down",
+              {.confounders = {"tilt_offset", "declination", "hard_iron", "soft_iron"}, .vector = 3, .order = 1});
 /// The triad of magnetometers is turned by the vector a against body and inclinometer.
-class CompassMisalignment final : public EffectOf<CompassMisalignment, kCompassMisalignment> {
- public:
+struct CompassMisalignment final : EffectOf<CompassMisalignment, kCompassMisalignment> {
   void body_field(const Instant&, Vector3& field_body_uT) override {
     const double angle = std::hypot(p_[0], p_[1], p_[2]) * base::kRadiansPerDegree;
     if (angle == 0) return;
@@ -54,15 +43,11 @@ class CompassMisalignment final : public EffectOf<CompassMisalignment, kCompassM
   }
 };
 
-constexpr EffectDescription kDeclination{.name = "declination",
-                                         .equation = "B = Rz(d) B",
-                                         .parameters = {{"angle_deg", 4, -180, 180}},
-                                         .manoeuvre = "run straight at the surface on three headings",
-                                         .confounders = {"compass_misalignment", "water_current"}};
-
+constexpr EffectDescription kDeclination = described("declination", "B = Rz(d) B", {{"angle_deg", 4, -180, 180}},
+                                                     "run straight at the surface on three headings",
+                                                     {.confounders = {"compass_misalignment", "water_current"}});
 /// The earth's field is turned about the vertical, positive to the east.
-class Declination final : public EffectOf<Declination, kDeclination> {
- public:
+struct Declination final : EffectOf<Declination, kDeclination> {
   void earth_field(const Instant&, Vector3& field_world_uT) override {
     const double c = std::cos(p_[0] * base::kRadiansPerDegree), s = std::sin(p_[0] * base::kRadiansPerDegree);
     const auto [north, east, down] = field_world_uT;
@@ -70,31 +55,21 @@ class Declination final : public EffectOf<Declination, kDeclination> {
   }
 };
 
-constexpr EffectDescription kHardIron{
-    .name = "hard_iron",
-    .equation = "m += b",
-    .parameters = {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}},
-    .manoeuvre = "turn full circles with pitch of both signs",
-    .confounders = {"soft_iron", "compass_misalignment", "motor_field", "mag_temperature"},
-    .vector = 3};
-
+constexpr EffectDescription kHardIron = described(
+    "hard_iron", "m += b", {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}},
+    "turn full circles with pitch of both signs",
+    {.confounders = {"soft_iron", "compass_misalignment", "motor_field", "mag_temperature"}, .vector = 3});
 /// Permanent magnetism of the vehicle.
-class HardIron final : public EffectOf<HardIron, kHardIron> {
- public:
+struct HardIron final : EffectOf<HardIron, kHardIron> {
   void body_field(const Instant&, Vector3& field_body_uT) override { add_scaled(field_body_uT, 1, vector()); }
 };
 
-constexpr EffectDescription kMagTemperature{
-    .name = "mag_temperature",
-    .equation = "m += c T, T above 15 C",
-    .parameters = {{"x_uT_per_C", 0.15, -10, 10}, {"y_uT_per_C", 0.15, -10, 10}, {"z_uT_per_C", 0.15, -10, 10}},
-    .manoeuvre = "let the electronics warm up with the motor off",
-    .confounders = {"hard_iron", "gyro_drift"},
-    .vector = 3};
-
+constexpr EffectDescription kMagTemperature = described(
+    "mag_temperature", "m += c T, T above 15 C",
+    {{"x_uT_per_C", 0.15, -10, 10}, {"y_uT_per_C", 0.15, -10, 10}, {"z_uT_per_C", 0.15, -10, 10}},
+    "let the electronics warm up with the motor off", {.confounders = {"hard_iron", "gyro_drift"}, .vector = 3});
 /// The magnetometers' zeros move as the electronics warm up.
-class MagTemperature final : public EffectOf<MagTemperature, kMagTemperature> {
- public:
+struct MagTemperature final : EffectOf<MagTemperature, kMagTemperature> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, now.temperature_rise_C(), vector());
   }
@@ -102,16 +77,11 @@ class MagTemperature final : public EffectOf<MagTemperature, kMagTemperature> {
 
 constexpr double kMemory_s = 60;
 
-constexpr EffectDescription kMagneticHysteresis{.name = "magnetic_hysteresis",
-                                                .equation = "m += k lowpass(m, 60 s)",
-                                                .parameters = {{"gain", 0.06, -0.03, 1}},
-                                                .manoeuvre = "come to the same heading from both sides",
-                                                .confounders = {"hard_iron", "soft_iron"},
-                                                .order = 2};
-
+constexpr EffectDescription kMagneticHysteresis =
+    described("magnetic_hysteresis", "m += k lowpass(m, 60 s)", {{"gain", 0.06, -0.03, 1}},
+              "come to the same heading from both sides", {.confounders = {"hard_iron", "soft_iron"}, .order = 2});
 /// Iron that remembers the field of the last minute.
-class MagneticHysteresis final : public EffectOf<MagneticHysteresis, kMagneticHysteresis> {
- public:
+struct MagneticHysteresis final : EffectOf<MagneticHysteresis, kMagneticHysteresis> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, p_[0], memory_.at(now.time_s, field_body_uT, kMemory_s));
   }
@@ -120,17 +90,12 @@ class MagneticHysteresis final : public EffectOf<MagneticHysteresis, kMagneticHy
   LowPass memory_;
 };
 
-constexpr EffectDescription kMotorField{
-    .name = "motor_field",
-    .equation = "m += k I",
-    .parameters = {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}},
-    .manoeuvre = "step the motor current on a constant heading",
-    .confounders = {"hard_iron", "adc_droop"},
-    .vector = 3};
-
+constexpr EffectDescription kMotorField = described(
+    "motor_field", "m += k I",
+    {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}},
+    "step the motor current on a constant heading", {.confounders = {"hard_iron", "adc_droop"}, .vector = 3});
 /// The motor's supply makes a field of its own.
-class MotorField final : public EffectOf<MotorField, kMotorField> {
- public:
+struct MotorField final : EffectOf<MotorField, kMotorField> {
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, now.state.motor_current_A, vector());
   }
@@ -139,22 +104,18 @@ class MotorField final : public EffectOf<MotorField, kMotorField> {
 // The Frobenius norm of S counts, in which what stands off the diagonal counts twice.
 constexpr double kNorm = 0.05;
 
-constexpr EffectDescription kSoftIron{.name = "soft_iron",
-                                      .equation = "m = (1 + S) m, S symmetric",
-                                      .parameters = {{"xx", kNorm, -0.5, 0.5},
-                                                     {"yy", kNorm, -0.5, 0.5},
-                                                     {"zz", kNorm, -0.5, 0.5},
-                                                     {"xy", kNorm / std::numbers::sqrt2, -0.5, 0.5},
-                                                     {"xz", kNorm / std::numbers::sqrt2, -0.5, 0.5},
-                                                     {"yz", kNorm / std::numbers::sqrt2, -0.5, 0.5}},
-                                      .manoeuvre = "turn full circles at two pitch angles",
-                                      .confounders = {"hard_iron", "compass_misalignment", "magnetic_hysteresis"},
-                                      .vector = 6,
-                                      .order = 0};
-
+constexpr EffectDescription kSoftIron = described(
+    "soft_iron", "m = (1 + S) m, S symmetric",
+    {{"xx", kNorm, -0.5, 0.5},
+     {"yy", kNorm, -0.5, 0.5},
+     {"zz", kNorm, -0.5, 0.5},
+     {"xy", kNorm / std::numbers::sqrt2, -0.5, 0.5},
+     {"xz", kNorm / std::numbers::sqrt2, -0.5, 0.5},
+     {"yz", kNorm / std::numbers::sqrt2, -0.5, 0.5}},
+    "turn full circles at two pitch angles",
+    {.confounders = {"hard_iron", "compass_misalignment", "magnetic_hysteresis"}, .vector = 6, .order = 0});
 /// Iron that the field itself magnetises, without preferred rotation.
-class SoftIron final : public EffectOf<SoftIron, kSoftIron> {
- public:
+struct SoftIron final : EffectOf<SoftIron, kSoftIron> {
   void body_field(const Instant&, Vector3& field_body_uT) override {
     const auto [xx, yy, zz, xy, xz, yz] = p_;
     const Matrix3 more{{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
@@ -162,29 +123,22 @@ class SoftIron final : public EffectOf<SoftIron, kSoftIron> {
   }
 };
 
-constexpr EffectDescription kTiltOffset{.name = "tilt_offset",
-                                        .equation = "tilt += o",
-                                        .parameters = {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}},
-                                        .manoeuvre = "pitch up and down by the same angle",
-                                        .confounders = {"accel_bias", "compass_misalignment"}};
-
+constexpr EffectDescription kTiltOffset =
+    described("tilt_offset", "tilt += o", {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}},
+              "pitch up and down by the same angle", {.confounders = {"accel_bias", "compass_misalignment"}});
 /// The inclinometer is mounted askew.
-class TiltOffset final : public EffectOf<TiltOffset, kTiltOffset> {
- public:
+struct TiltOffset final : EffectOf<TiltOffset, kTiltOffset> {
   void tilt_said(const Instant&, Tilt& tilt) override {
     tilt.roll_rad += p_[0] * base::kRadiansPerDegree;
     tilt.pitch_rad += p_[1] * base::kRadiansPerDegree;
   }
 };
 
-constexpr EffectDescription kTiltSlosh{.name = "tilt_slosh",
-                                       .equation = "roll -= k a_y/g, pitch += k a_x/g, before the fluid's lag",
-                                       .parameters = {{"gain", 0.3, -0.15, 2}},
-                                       .manoeuvre = "turn at one rate and two speeds"};
-
+constexpr EffectDescription kTiltSlosh =
+    described("tilt_slosh", "roll -= k a_y/g, pitch += k a_x/g, before the fluid's lag", {{"gain", 0.3, -0.15, 2}},
+              "turn at one rate and two speeds");
 /// The inclinometer's fluid sees gravity less a share of the vehicle's acceleration.
-class TiltSlosh final : public EffectOf<TiltSlosh, kTiltSlosh> {
- public:
+struct TiltSlosh final : EffectOf<TiltSlosh, kTiltSlosh> {
   void tilt_seen(const Instant& now, Tilt& tilt) override {
     const Vector3 acceleration = now.acceleration_m_s2();
     tilt.roll_rad -= p_[0] * acceleration[1] / kGravity_m_s2;

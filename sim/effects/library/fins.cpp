@@ -7,16 +7,11 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kElevatorOffset{.name = "elevator_offset",
-                                            .equation = "d += mixed elevator o",
-                                            .parameters = {{"angle_deg", 1, -20, 20}},
-                                            .manoeuvre = "elevator doublets, level",
-                                            .confounders = {"fin_gain", "fin_offset"},
-                                            .place = EffectPlace::vehicle};
-
+constexpr EffectDescription kElevatorOffset =
+    described("elevator_offset", "d += mixed elevator o", {{"angle_deg", 1, -20, 20}}, "elevator doublets, level",
+              {.confounders = {"fin_gain", "fin_offset"}, .place = EffectPlace::vehicle});
 /// The fins stand off in the sense of an elevator command, between servo and fin.
-class ElevatorOffset final : public EffectOf<ElevatorOffset, kElevatorOffset> {
- public:
+struct ElevatorOffset final : EffectOf<ElevatorOffset, kElevatorOffset> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     const double elevator_rad = p_[0] * std::numbers::pi / 180;
     constexpr double kShare = std::numbers::sqrt3 / 2;  // docs/simulator.md: how rudder and elevator mix
@@ -24,18 +19,11 @@ class ElevatorOffset final : public EffectOf<ElevatorOffset, kElevatorOffset> {
   }
 };
 
-constexpr EffectDescription kFinBacklash{.name = "fin_backlash",
-                                         .equation = "d stays within b/2 of the servo",
-                                         .parameters = {{"width_deg", 2, 0, 30}},
-                                         .manoeuvre = "small fin reversals about zero",
-                                         .confounders = {"fin_lag"},
-                                         .place = EffectPlace::vehicle,
-                                         .order = 2,
-                                         .kind = EffectKind::backlash};
-
+constexpr EffectDescription kFinBacklash = described(
+    "fin_backlash", "d stays within b/2 of the servo", {{"width_deg", 2, 0, 30}}, "small fin reversals about zero",
+    {.confounders = {"fin_lag"}, .place = EffectPlace::vehicle, .order = 2, .kind = EffectKind::backlash});
 /// Backlash of total width b between the servo that is reported and the fin.
-class FinBacklash final : public EffectOf<FinBacklash, kFinBacklash> {
- public:
+struct FinBacklash final : EffectOf<FinBacklash, kFinBacklash> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     if (!begun_) fins_rad_ = fins_rad;
     begun_ = true;
@@ -51,34 +39,24 @@ class FinBacklash final : public EffectOf<FinBacklash, kFinBacklash> {
   bool begun_ = false;
 };
 
-constexpr EffectDescription kFinGain{.name = "fin_gain",
-                                     .equation = "d *= 1 + k",
-                                     .parameters = {{"scale", 0.08, -0.9, 1}},
-                                     .manoeuvre = "rudder doublets of two sizes at two speeds",
-                                     .confounders = {"fin_lag", "yaw_damping", "thrust_scale"},
-                                     .place = EffectPlace::vehicle,
-                                     .order = 0};
-
+constexpr EffectDescription kFinGain = described(
+    "fin_gain", "d *= 1 + k", {{"scale", 0.08, -0.9, 1}}, "rudder doublets of two sizes at two speeds",
+    {.confounders = {"fin_lag", "yaw_damping", "thrust_scale"}, .place = EffectPlace::vehicle, .order = 0});
 /// The fin turns further than the servo that is reported.
-class FinGain final : public EffectOf<FinGain, kFinGain> {
- public:
+struct FinGain final : EffectOf<FinGain, kFinGain> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     for (double& fin_rad : fins_rad) fin_rad *= 1 + p_[0];
   }
 };
 
-constexpr EffectDescription kFinLag{.name = "fin_lag",
-                                    .equation = "tau d' + d = servo",
-                                    .parameters = {{"tau_s", 0.2, 0, 5}},
-                                    .manoeuvre = "fast rudder doublets",
-                                    .confounders = {"fin_gain", "yaw_damping", "thrust_scale", "imu_latency"},
-                                    .place = EffectPlace::vehicle,
-                                    .order = 1,
-                                    .kind = EffectKind::lag};
-
+constexpr EffectDescription kFinLag =
+    described("fin_lag", "tau d' + d = servo", {{"tau_s", 0.2, 0, 5}}, "fast rudder doublets",
+              {.confounders = {"fin_gain", "yaw_damping", "thrust_scale", "imu_latency"},
+               .place = EffectPlace::vehicle,
+               .order = 1,
+               .kind = EffectKind::lag});
 /// A further lag between the servo that is reported and the fin.
-class FinLag final : public EffectOf<FinLag, kFinLag> {
- public:
+struct FinLag final : EffectOf<FinLag, kFinLag> {
   void link_fins(double /*time_s*/, double step_s, Vector3& fins_rad) override {
     elapsed_s_ += step_s;
     fins_rad = filter_.at(elapsed_s_, fins_rad, p_[0]);
@@ -89,16 +67,11 @@ class FinLag final : public EffectOf<FinLag, kFinLag> {
   double elapsed_s_ = 0;
 };
 
-constexpr EffectDescription kFinOffset{.name = "fin_offset",
-                                       .equation = "d += mixed rudder o",
-                                       .parameters = {{"angle_deg", 1, -20, 20}},
-                                       .manoeuvre = "rudder doublets, straight",
-                                       .confounders = {"fin_gain", "elevator_offset"},
-                                       .place = EffectPlace::vehicle};
-
+constexpr EffectDescription kFinOffset =
+    described("fin_offset", "d += mixed rudder o", {{"angle_deg", 1, -20, 20}}, "rudder doublets, straight",
+              {.confounders = {"fin_gain", "elevator_offset"}, .place = EffectPlace::vehicle});
 /// The fins stand off in the sense of a rudder command, between servo and fin.
-class FinOffset final : public EffectOf<FinOffset, kFinOffset> {
- public:
+struct FinOffset final : EffectOf<FinOffset, kFinOffset> {
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     const double rudder_rad = p_[0] * std::numbers::pi / 180;
     add_scaled(fins_rad, rudder_rad, {-1, 0.5, 0.5});  // docs/simulator.md: how rudder and elevator mix

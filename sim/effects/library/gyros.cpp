@@ -9,23 +9,20 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kGyroCrossAxis{
-    .name = "gyro_cross_axis",
-    .equation = "w_i += k w_j",
-    .parameters = {{"ax_from_y", 0.03, -0.5, 0.5},
-                   {"ax_from_z", 0.03, -0.5, 0.5},
-                   {"az_from_x", 0.03, -0.5, 0.5},
-                   {"az_from_y", 0.03, -0.5, 0.5},
-                   {"by_from_x", 0.03, -0.5, 0.5},
-                   {"by_from_z", 0.03, -0.5, 0.5},
-                   {"bz_from_x", 0.03, -0.5, 0.5},
-                   {"bz_from_y", 0.03, -0.5, 0.5}},
-    .manoeuvre = "turn level, then turn pitched up",
-    .confounders = {"compass_misalignment", "tilt_offset", "gyro_g_sensitivity"}};
-
+constexpr EffectDescription kGyroCrossAxis =
+    described("gyro_cross_axis", "w_i += k w_j",
+              {{"ax_from_y", 0.03, -0.5, 0.5},
+               {"ax_from_z", 0.03, -0.5, 0.5},
+               {"az_from_x", 0.03, -0.5, 0.5},
+               {"az_from_y", 0.03, -0.5, 0.5},
+               {"by_from_x", 0.03, -0.5, 0.5},
+               {"by_from_z", 0.03, -0.5, 0.5},
+               {"bz_from_x", 0.03, -0.5, 0.5},
+               {"bz_from_y", 0.03, -0.5, 0.5}},
+              "turn level, then turn pitched up",
+              {.confounders = {"compass_misalignment", "tilt_offset", "gyro_g_sensitivity"}});
 /// Each gyro feels the rates about the two other axes.
-class GyroCrossAxis final : public EffectOf<GyroCrossAxis, kGyroCrossAxis> {
- public:
+struct GyroCrossAxis final : EffectOf<GyroCrossAxis, kGyroCrossAxis> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const double* factor = p_.data();
     for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {
@@ -36,44 +33,37 @@ class GyroCrossAxis final : public EffectOf<GyroCrossAxis, kGyroCrossAxis> {
   }
 };
 
-constexpr EffectDescription kGyroDrift{.name = "gyro_drift",
-                                       .equation = "w += c t",
-                                       .parameters = {{"deg_per_s2_ax", 0.001, -1, 1},
-                                                      {"deg_per_s2_az", 0.001, -1, 1},
-                                                      {"deg_per_s2_by", 0.001, -1, 1},
-                                                      {"deg_per_s2_bz", 0.001, -1, 1}},
-                                       .manoeuvre = "run long straight legs",
-                                       .confounders = {"gyro_temperature"}};
-
+constexpr EffectDescription kGyroDrift =
+    described("gyro_drift", "w += c t",
+              {{"deg_per_s2_ax", 0.001, -1, 1},
+               {"deg_per_s2_az", 0.001, -1, 1},
+               {"deg_per_s2_by", 0.001, -1, 1},
+               {"deg_per_s2_bz", 0.001, -1, 1}},
+              "run long straight legs", {.confounders = {"gyro_temperature"}});
 /// Each gyro's zero drifts steadily from the beginning of the mission.
-class GyroDrift final : public EffectOf<GyroDrift, kGyroDrift> {
- public:
+struct GyroDrift final : EffectOf<GyroDrift, kGyroDrift> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * base::kRadiansPerDegree * now.time_s;
   }
 };
 
-constexpr EffectDescription kGyroGSensitivity{.name = "gyro_g_sensitivity",
-                                              .equation = "w_i += G_i . f",
-                                              .parameters = {{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"az_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"az_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"az_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"by_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"by_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"by_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                             {"bz_z_deg_per_s_per_g", 0.6, -50, 50}},
-                                              .manoeuvre = "hold a pitch without turning",
-                                              .confounders = {"tilt_offset", "gyro_cross_axis"},
-                                              .vector = 3};
-
+constexpr EffectDescription kGyroGSensitivity =
+    described("gyro_g_sensitivity", "w_i += G_i . f",
+              {{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
+               {"az_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"az_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"az_z_deg_per_s_per_g", 0.6, -50, 50},
+               {"by_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"by_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"by_z_deg_per_s_per_g", 0.6, -50, 50},
+               {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
+               {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
+               {"bz_z_deg_per_s_per_g", 0.6, -50, 50}},
+              "hold a pitch without turning", {.confounders = {"tilt_offset", "gyro_cross_axis"}, .vector = 3});
 /// Each gyro feels the specific force, too.
-class GyroGSensitivity final : public EffectOf<GyroGSensitivity, kGyroGSensitivity> {
- public:
+struct GyroGSensitivity final : EffectOf<GyroGSensitivity, kGyroGSensitivity> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const Vector3& force = now.state.specific_force_m_s2;
     for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {
@@ -84,18 +74,15 @@ class GyroGSensitivity final : public EffectOf<GyroGSensitivity, kGyroGSensitivi
   }
 };
 
-constexpr EffectDescription kGyroNonlinearity{.name = "gyro_nonlinearity",
-                                              .equation = "w += k w |w|",
-                                              .parameters = {{"s_per_deg_ax", 0.0008, -0.01, 0.01},
-                                                             {"s_per_deg_az", 0.0008, -0.01, 0.01},
-                                                             {"s_per_deg_by", 0.0008, -0.01, 0.01},
-                                                             {"s_per_deg_bz", 0.0008, -0.01, 0.01}},
-                                              .manoeuvre = "turn at two very different rates",
-                                              .confounders = {"gyro_scale"}};
-
+constexpr EffectDescription kGyroNonlinearity =
+    described("gyro_nonlinearity", "w += k w |w|",
+              {{"s_per_deg_ax", 0.0008, -0.01, 0.01},
+               {"s_per_deg_az", 0.0008, -0.01, 0.01},
+               {"s_per_deg_by", 0.0008, -0.01, 0.01},
+               {"s_per_deg_bz", 0.0008, -0.01, 0.01}},
+              "turn at two very different rates", {.confounders = {"gyro_scale"}});
 /// Each gyro's scale grows with the rate.
-class GyroNonlinearity final : public EffectOf<GyroNonlinearity, kGyroNonlinearity> {
- public:
+struct GyroNonlinearity final : EffectOf<GyroNonlinearity, kGyroNonlinearity> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const double rate = now.state.rate_rad_s[kGyroAxes[i]];
@@ -104,18 +91,14 @@ class GyroNonlinearity final : public EffectOf<GyroNonlinearity, kGyroNonlineari
   }
 };
 
-constexpr EffectDescription kGyroRandomWalk{.name = "gyro_random_walk",
-                                            .equation = "w += integral of white noise",
-                                            .parameters = {{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
-                                                           {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
-                                                           {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
-                                                           {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}},
-                                            .manoeuvre = TellingManoeuvre::none(),
-                                            .place = EffectPlace::lines};
-
+constexpr EffectDescription kGyroRandomWalk = described("gyro_random_walk", "w += integral of white noise",
+                                                        {{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
+                                                         {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
+                                                         {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
+                                                         {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}},
+                                                        TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Each gyro's zero walks at random.
-class GyroRandomWalk final : public EffectOf<GyroRandomWalk, kGyroRandomWalk> {
- public:
+struct GyroRandomWalk final : EffectOf<GyroRandomWalk, kGyroRandomWalk> {
   void reseed(std::uint64_t seed) override { noise_ = Noise(seed); }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const double root = std::sqrt(std::max(0.0, now.time_s - time_s_.value_or(now.time_s)));
@@ -132,36 +115,30 @@ class GyroRandomWalk final : public EffectOf<GyroRandomWalk, kGyroRandomWalk> {
   GyroRates walk_rad_s_{};
 };
 
-constexpr EffectDescription kGyroScale{
-    .name = "gyro_scale",
-    .equation = "w += k w",
-    .parameters = {{"scale_ax", 0.03, -0.9, 1},
-                   {"scale_az", 0.03, -0.9, 1},
-                   {"scale_by", 0.03, -0.9, 1},
-                   {"scale_bz", 0.03, -0.9, 1}},
-    .manoeuvre = "turn two full revolutions one way",
-    .confounders = {"fin_gain", "imu_latency", "compass_lag", "gyro_nonlinearity"}};
-
+constexpr EffectDescription kGyroScale =
+    described("gyro_scale", "w += k w",
+              {{"scale_ax", 0.03, -0.9, 1},
+               {"scale_az", 0.03, -0.9, 1},
+               {"scale_by", 0.03, -0.9, 1},
+               {"scale_bz", 0.03, -0.9, 1}},
+              "turn two full revolutions one way",
+              {.confounders = {"fin_gain", "imu_latency", "compass_lag", "gyro_nonlinearity"}});
 /// Each gyro's scale is off.
-class GyroScale final : public EffectOf<GyroScale, kGyroScale> {
- public:
+struct GyroScale final : EffectOf<GyroScale, kGyroScale> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * now.state.rate_rad_s[kGyroAxes[i]];
   }
 };
 
-constexpr EffectDescription kGyroTemperature{.name = "gyro_temperature",
-                                             .equation = "w += c T, T above 15 C",
-                                             .parameters = {{"deg_per_s_per_C_ax", 0.06, -5, 5},
-                                                            {"deg_per_s_per_C_az", 0.06, -5, 5},
-                                                            {"deg_per_s_per_C_by", 0.06, -5, 5},
-                                                            {"deg_per_s_per_C_bz", 0.06, -5, 5}},
-                                             .manoeuvre = "run once from cold and once warmed up",
-                                             .confounders = {"gyro_drift"}};
-
+constexpr EffectDescription kGyroTemperature =
+    described("gyro_temperature", "w += c T, T above 15 C",
+              {{"deg_per_s_per_C_ax", 0.06, -5, 5},
+               {"deg_per_s_per_C_az", 0.06, -5, 5},
+               {"deg_per_s_per_C_by", 0.06, -5, 5},
+               {"deg_per_s_per_C_bz", 0.06, -5, 5}},
+              "run once from cold and once warmed up", {.confounders = {"gyro_drift"}});
 /// Each gyro's zero moves as the electronics warm up.
-class GyroTemperature final : public EffectOf<GyroTemperature, kGyroTemperature> {
- public:
+struct GyroTemperature final : EffectOf<GyroTemperature, kGyroTemperature> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i)
       rate_rad_s[i] += p_[i] * base::kRadiansPerDegree * now.temperature_rise_C();

@@ -26,34 +26,25 @@ class OnEachLine : public EffectOf<Self, kAbout> {
   std::array<Noise, kInstruments> noises_{Noise(1), Noise(2), Noise(3), Noise(4)};
 };
 
-constexpr EffectDescription kArrivalJitter{.name = "arrival_jitter",
-                                           .equation = "arrival += Exp(mean)",
-                                           .parameters = {{"compass_mean_s", 0.005, 0, 1},
-                                                          {"imu_mean_s", 0.005, 0, 1},
-                                                          {"gps_mean_s", 0.005, 0, 1},
-                                                          {"motor_mean_s", 0.005, 0, 1}},
-                                           .manoeuvre = TellingManoeuvre::none(),
-                                           .place = EffectPlace::lines};
-
+constexpr EffectDescription kArrivalJitter = described("arrival_jitter", "arrival += Exp(mean)",
+                                                       {{"compass_mean_s", 0.005, 0, 1},
+                                                        {"imu_mean_s", 0.005, 0, 1},
+                                                        {"gps_mean_s", 0.005, 0, 1},
+                                                        {"motor_mean_s", 0.005, 0, 1}},
+                                                       TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// The host takes frames late, by exponential delays.
-class ArrivalJitter final : public OnEachLine<ArrivalJitter, kArrivalJitter> {
- public:
+struct ArrivalJitter final : OnEachLine<ArrivalJitter, kArrivalJitter> {
   void line(Instrument of, double, Transmission& way) override {
     way.late_s -= parameter(of) * std::log1p(-random(of));
   }
 };
 
-constexpr EffectDescription kClockError{.name = "clock_error",
-                                        .equation = "period *= 1 + e",
-                                        .parameters = {{"compass_ppm", 100, -10000, 10000},
-                                                       {"imu_ppm", 100, -10000, 10000},
-                                                       {"motor_ppm", 100, -10000, 10000}},
-                                        .manoeuvre = TellingManoeuvre::none(),
-                                        .place = EffectPlace::lines};
-
+constexpr EffectDescription kClockError = described(
+    "clock_error", "period *= 1 + e",
+    {{"compass_ppm", 100, -10000, 10000}, {"imu_ppm", 100, -10000, 10000}, {"motor_ppm", 100, -10000, 10000}},
+    TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// The clocks of compass and cards run slow; the receiver's is that of its satellites.
-class ClockError final : public EffectOf<ClockError, kClockError> {
- public:
+struct ClockError final : EffectOf<ClockError, kClockError> {
   void clock(Instrument of, double& slow_ppm) override {
     if (of == Instrument::compass) slow_ppm += p_[0];
     if (of == Instrument::imu) slow_ppm += p_[1];
@@ -61,62 +52,46 @@ class ClockError final : public EffectOf<ClockError, kClockError> {
   }
 };
 
-constexpr EffectDescription kDroppedFrames{.name = "dropped_frames",
-                                           .equation = "lost with probability p",
-                                           .parameters = {{"compass_probability", 0.02, 0, 1},
-                                                          {"imu_probability", 0.02, 0, 1},
-                                                          {"gps_probability", 0.02, 0, 1},
-                                                          {"motor_probability", 0.02, 0, 1}},
-                                           .manoeuvre = TellingManoeuvre::none(),
-                                           .place = EffectPlace::lines};
-
+constexpr EffectDescription kDroppedFrames = described("dropped_frames", "lost with probability p",
+                                                       {{"compass_probability", 0.02, 0, 1},
+                                                        {"imu_probability", 0.02, 0, 1},
+                                                        {"gps_probability", 0.02, 0, 1},
+                                                        {"motor_probability", 0.02, 0, 1}},
+                                                       TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Frames are lost on their way to the host.
-class DroppedFrames final : public OnEachLine<DroppedFrames, kDroppedFrames> {
- public:
+struct DroppedFrames final : OnEachLine<DroppedFrames, kDroppedFrames> {
   void line(Instrument of, double, Transmission& way) override {
     if (random(of) < parameter(of)) way.copies = 0;
   }
 };
 
-constexpr EffectDescription kNoiseLevel{
-    .name = "noise_level",
-    .equation = "sigma *= 1 + k",
-    .parameters = {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
-    .manoeuvre = TellingManoeuvre::none(),
-    .place = EffectPlace::lines};
-
+constexpr EffectDescription kNoiseLevel =
+    described("noise_level", "sigma *= 1 + k",
+              {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
+              TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Every instrument's noise is stronger.
-class NoiseLevel final : public EffectOf<NoiseLevel, kNoiseLevel> {
- public:
+struct NoiseLevel final : EffectOf<NoiseLevel, kNoiseLevel> {
   void noise(Instrument of, double& factor) override { factor *= 1 + p_[static_cast<std::size_t>(of)]; }
 };
 
-constexpr EffectDescription kRepeatedFrames{.name = "repeated_frames",
-                                            .equation = "twice with probability p",
-                                            .parameters = {{"compass_probability", 0.02, 0, 1},
-                                                           {"imu_probability", 0.02, 0, 1},
-                                                           {"gps_probability", 0.02, 0, 1},
-                                                           {"motor_probability", 0.02, 0, 1}},
-                                            .manoeuvre = TellingManoeuvre::none(),
-                                            .place = EffectPlace::lines};
-
+constexpr EffectDescription kRepeatedFrames = described("repeated_frames", "twice with probability p",
+                                                        {{"compass_probability", 0.02, 0, 1},
+                                                         {"imu_probability", 0.02, 0, 1},
+                                                         {"gps_probability", 0.02, 0, 1},
+                                                         {"motor_probability", 0.02, 0, 1}},
+                                                        TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Frames come twice.
-class RepeatedFrames final : public OnEachLine<RepeatedFrames, kRepeatedFrames> {
- public:
+struct RepeatedFrames final : OnEachLine<RepeatedFrames, kRepeatedFrames> {
   void line(Instrument of, double, Transmission& way) override {
     if (random(of) < parameter(of)) way.copies *= 2;
   }
 };
 
-constexpr EffectDescription kStalls{.name = "stalls",
-                                    .equation = "at random instants, so many a minute",
-                                    .parameters = {{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}},
-                                    .manoeuvre = TellingManoeuvre::none(),
-                                    .place = EffectPlace::lines};
-
+constexpr EffectDescription kStalls = described("stalls", "at random instants, so many a minute",
+                                                {{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}},
+                                                TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// The host takes nothing from a line for a while, then all at once; each line on its own.
-class Stalls final : public OnEachLine<Stalls, kStalls> {
- public:
+struct Stalls final : OnEachLine<Stalls, kStalls> {
   void line(Instrument of, double time_s, Transmission& way) override {
     if (p_[0] <= 0 || p_[1] <= 0) return;
     double& next_s = next_s_[static_cast<std::size_t>(of)];

@@ -4,59 +4,40 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kBuoyancy{.name = "buoyancy",
-                                      .equation = "Z_world -= F at the origin",
-                                      .parameters = {{"force_N", 0.4, -20, 20}},
-                                      .manoeuvre = "glide or hover with the propeller off",
-                                      .confounders = {"depth_scale", "elevator_offset"},
-                                      .place = EffectPlace::vehicle};
-
+constexpr EffectDescription kBuoyancy = described(
+    "buoyancy", "Z_world -= F at the origin", {{"force_N", 0.4, -20, 20}}, "glide or hover with the propeller off",
+    {.confounders = {"depth_scale", "elevator_offset"}, .place = EffectPlace::vehicle});
 /// The vehicle is not of the water's weight.
-class Buoyancy final : public EffectOf<Buoyancy, kBuoyancy> {
- public:
+struct Buoyancy final : EffectOf<Buoyancy, kBuoyancy> {
   void influence(double /*time_s*/, Influences& on) override { on.buoyancy_N += p_[0]; }
 };
 
-constexpr EffectDescription kThrustScale{.name = "thrust_scale",
-                                         .equation = "thrust *= 1 + k",
-                                         .parameters = {{"scale", 0.08, -0.9, 1}},
-                                         .manoeuvre = "run reciprocal legs with speed steps at the surface",
-                                         .confounders = {"water_current", "fin_gain", "accel_scale"},
-                                         .place = EffectPlace::vehicle};
-
+constexpr EffectDescription kThrustScale =
+    described("thrust_scale", "thrust *= 1 + k", {{"scale", 0.08, -0.9, 1}},
+              "run reciprocal legs with speed steps at the surface",
+              {.confounders = {"water_current", "fin_gain", "accel_scale"}, .place = EffectPlace::vehicle});
 /// The propeller pushes more than nominal.
-class ThrustScale final : public EffectOf<ThrustScale, kThrustScale> {
- public:
+struct ThrustScale final : EffectOf<ThrustScale, kThrustScale> {
   void influence(double /*time_s*/, Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
 };
 
-constexpr EffectDescription kWaterCurrent{.name = "water_current",
-                                          .equation = "v_world += c",
-                                          .parameters = {{"north_m_s", 0.06, -5, 5}, {"east_m_s", 0.06, -5, 5}},
-                                          .manoeuvre = "run reciprocal legs at the surface",
-                                          .confounders = {"thrust_scale", "declination"},
-                                          .place = EffectPlace::vehicle,
-                                          .vector = 2};
-
+constexpr EffectDescription kWaterCurrent =
+    described("water_current", "v_world += c", {{"north_m_s", 0.06, -5, 5}, {"east_m_s", 0.06, -5, 5}},
+              "run reciprocal legs at the surface",
+              {.confounders = {"thrust_scale", "declination"}, .place = EffectPlace::vehicle, .vector = 2});
 /// The water moves over the ground.
-class WaterCurrent final : public EffectOf<WaterCurrent, kWaterCurrent> {
- public:
+struct WaterCurrent final : EffectOf<WaterCurrent, kWaterCurrent> {
   void influence(double /*time_s*/, Influences& on) override {
     on.current_m_s[0] += p_[0];
     on.current_m_s[1] += p_[1];
   }
 };
 
-constexpr EffectDescription kYawDamping{.name = "yaw_damping",
-                                        .equation = "N -= k M66 r",
-                                        .parameters = {{"per_s", 0.3, -0.15, 10}},
-                                        .manoeuvre = "rudder doublets of two sizes at two speeds",
-                                        .confounders = {"fin_gain", "fin_lag", "thrust_scale"},
-                                        .place = EffectPlace::vehicle};
-
+constexpr EffectDescription kYawDamping = described(
+    "yaw_damping", "N -= k M66 r", {{"per_s", 0.3, -0.15, 10}}, "rudder doublets of two sizes at two speeds",
+    {.confounders = {"fin_gain", "fin_lag", "thrust_scale"}, .place = EffectPlace::vehicle});
 /// The hull resists turning more than nominal.
-class YawDamping final : public EffectOf<YawDamping, kYawDamping> {
- public:
+struct YawDamping final : EffectOf<YawDamping, kYawDamping> {
   void influence(double /*time_s*/, Influences& on) override { on.yaw_damping_per_s += p_[0]; }
 };
 

@@ -6,9 +6,8 @@
 #include <numbers>
 
 #include "base/gravity.h"
-#include "sim/layout/added_mass.h"
 #include "sim/layout/assessment/parts.h"
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 #include "sim/layout/vector_of.h"
 
 namespace navcal::sim::assessment {

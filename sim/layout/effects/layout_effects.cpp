@@ -10,8 +10,7 @@
 
 #include "autopilot/controllability.h"
 #include "base/angles.h"
-#include "sim/layout/added_mass.h"
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim {
 namespace {
@@ -37,6 +36,7 @@ using enum LayoutPart;
 using config::Layout;
 using Owner = LayoutOwner;
 using Values = std::span<const double>;
+using Row = LayoutEffectDescription;
 
 config::LayoutHeard& heard_of(Layout& layout, const Owner& owner) {
   switch (owner.part) {
@@ -84,74 +84,66 @@ void change_yaw_damping(Layout& layout, const Owner&, Values values) {
 }
 
 constexpr std::array kLayoutEffects{
-    LayoutEffectDescription{"actuator_dead", "command away from neutral *= 1 - k", kLayoutShare, actuator,
-                            LayoutScale::one, "command each actuator alone",
-                            [](Layout& l, const Owner& o, Values v) { heard_of(l, o).scale *= 1 - v[0]; }},
-    LayoutEffectDescription{"actuator_reversed", "command away from neutral *= 1 - 2 k", kLayoutShare, actuator,
-                            LayoutScale::one, "command each actuator alone",
-                            [](Layout& l, const Owner& o, Values v) { heard_of(l, o).scale *= 1 - 2 * v[0]; }},
-    LayoutEffectDescription{"added_mass", "M_A *= 1 + k in this degree of freedom", kLayoutForm, freedom,
-                            LayoutScale::one, "steps of the force", change_added_mass},
-    LayoutEffectDescription{"ballast_offset", "ballast += F", kLayoutBallastForce, ballast, LayoutScale::weight_N,
-                            "hover or glide",
-                            [](Layout& l, const Owner& o, Values v) { l.ballasts[o.index].heard.offset += v[0]; }},
-    LayoutEffectDescription{
-        "ballast_scale", "ballast *= 1 + k", kLayoutGain, ballast, LayoutScale::one, "glide down and up",
+    Row{"actuator_dead", "command away from neutral *= 1 - k", kLayoutShare, actuator, LayoutScale::one,
+        "command each actuator alone",
+        [](Layout& l, const Owner& o, Values v) { heard_of(l, o).scale *= 1 - v[0]; }},
+    Row{"actuator_reversed", "command away from neutral *= 1 - 2 k", kLayoutShare, actuator, LayoutScale::one,
+        "command each actuator alone",
+        [](Layout& l, const Owner& o, Values v) { heard_of(l, o).scale *= 1 - 2 * v[0]; }},
+    Row{"added_mass", "M_A *= 1 + k in this degree of freedom", kLayoutForm, freedom, LayoutScale::one,
+        "steps of the force", change_added_mass},
+    Row{"ballast_offset", "ballast += F", kLayoutBallastForce, ballast, LayoutScale::weight_N, "hover or glide",
+        [](Layout& l, const Owner& o, Values v) { l.ballasts[o.index].heard.offset += v[0]; }},
+    Row{"ballast_scale", "ballast *= 1 + k", kLayoutGain, ballast, LayoutScale::one, "glide down and up",
         [](Layout& l, const Owner& o, Values v) { l.ballasts[o.index].heard.scale *= 1 + v[0]; }},
-    LayoutEffectDescription{"buoyancy", "B += F", kLayoutForce, vehicle, LayoutScale::weight_N,
-                            "hover or glide with thrusters off",
-                            [](Layout& l, const Owner&, Values v) { l.body.buoyancy_N += v[0]; }},
-    LayoutEffectDescription{"buoyancy_shift", "r_B += s", kLayoutPlaceShift, vehicle, LayoutScale::length_m,
-                            "lie still, then roll and pitch",
-                            [](Layout& l, const Owner&, Values v) { shift(l.body.buoyancy_centre_m, v); }, 3},
-    LayoutEffectDescription{"damping", "forces of the hull *= 1 + k in this degree of freedom", kLayoutForm,
-                            freedom, LayoutScale::one, "steady motion at several speeds",
-                            [](Layout& l, const Owner& o, Values v) { l.damping.factors[o.index] *= 1 + v[0]; }},
-    LayoutEffectDescription{"fin_dead_band", "angles nearer to zero than b are zero", kLayoutAngleBand, surface,
-                            LayoutScale::one, "small doublets",
-                            [](Layout& l, const Owner& o, Values v) {
-                              l.surfaces[o.index].dead_band_rad += v[0] * base::kRadiansPerDegree;
-                            }},
-    LayoutEffectDescription{
-        "fin_gain", "d *= 1 + k", kLayoutGain, surface, LayoutScale::one, "doublets at several amplitudes",
+    Row{"buoyancy", "B += F", kLayoutForce, vehicle, LayoutScale::weight_N, "hover or glide with thrusters off",
+        [](Layout& l, const Owner&, Values v) { l.body.buoyancy_N += v[0]; }},
+    Row{"buoyancy_shift", "r_B += s", kLayoutPlaceShift, vehicle, LayoutScale::length_m,
+        "lie still, then roll and pitch",
+        [](Layout& l, const Owner&, Values v) { shift(l.body.buoyancy_centre_m, v); }, 3},
+    Row{"damping", "forces of the hull *= 1 + k in this degree of freedom", kLayoutForm, freedom, LayoutScale::one,
+        "steady motion at several speeds",
+        [](Layout& l, const Owner& o, Values v) { l.damping.factors[o.index] *= 1 + v[0]; }},
+    Row{"fin_dead_band", "angles nearer to zero than b are zero", kLayoutAngleBand, surface, LayoutScale::one,
+        "small doublets",
+        [](Layout& l, const Owner& o, Values v) {
+          l.surfaces[o.index].dead_band_rad += v[0] * base::kRadiansPerDegree;
+        }},
+    Row{"fin_gain", "d *= 1 + k", kLayoutGain, surface, LayoutScale::one, "doublets at several amplitudes",
         [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].heard.scale *= 1 + v[0]; }},
-    LayoutEffectDescription{"fin_lag", "lag += tau", kLayoutTau, surface, LayoutScale::one, "fast doublets",
-                            [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].lag_s += v[0]; }},
-    LayoutEffectDescription{"fin_offset", "d += o", kLayoutAngle, surface, LayoutScale::one, "straight legs",
-                            [](Layout& l, const Owner& o, Values v) {
-                              l.surfaces[o.index].heard.offset += v[0] * base::kRadiansPerDegree;
-                            }},
-    LayoutEffectDescription{"gravity_shift", "r_G += s", kLayoutPlaceShift, vehicle, LayoutScale::length_m,
-                            "lie still, then roll and pitch",
-                            [](Layout& l, const Owner&, Values v) { shift(l.body.gravity_centre_m, v); }, 3},
-    LayoutEffectDescription{
-        "mass_offset", "place of the mass += s", kLayoutWay, moving_mass, LayoutScale::length_m,
+    Row{"fin_lag", "lag += tau", kLayoutTau, surface, LayoutScale::one, "fast doublets",
+        [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].lag_s += v[0]; }},
+    Row{"fin_offset", "d += o", kLayoutAngle, surface, LayoutScale::one, "straight legs",
+        [](Layout& l, const Owner& o, Values v) {
+          l.surfaces[o.index].heard.offset += v[0] * base::kRadiansPerDegree;
+        }},
+    Row{"gravity_shift", "r_G += s", kLayoutPlaceShift, vehicle, LayoutScale::length_m,
+        "lie still, then roll and pitch",
+        [](Layout& l, const Owner&, Values v) { shift(l.body.gravity_centre_m, v); }, 3},
+    Row{"mass_offset", "place of the mass += s", kLayoutWay, moving_mass, LayoutScale::length_m,
         "glide at several angles",
         [](Layout& l, const Owner& o, Values v) { l.moving_masses[o.index].heard.offset += v[0]; }},
-    LayoutEffectDescription{
-        "mass_scale", "place of the mass *= 1 + k", kLayoutGain, moving_mass, LayoutScale::one,
+    Row{"mass_scale", "place of the mass *= 1 + k", kLayoutGain, moving_mass, LayoutScale::one,
         "glide at several angles",
         [](Layout& l, const Owner& o, Values v) { l.moving_masses[o.index].heard.scale *= 1 + v[0]; }},
-    LayoutEffectDescription{"thrust_scale", "thrust *= 1 + k", kLayoutScaleOf, thruster, LayoutScale::one,
-                            "speed steps on reciprocal legs", change_thrust_scale},
-    LayoutEffectDescription{"thruster_dead_band", "dead band += b, in % of the command's range", kLayoutBand,
-                            thruster, LayoutScale::one, "small commands about neutral",
-                            [](Layout& l, const Owner& o, Values v) {
-                              l.thrusters[o.index].dead_band += v[0] / 100 * half_range(l.thrusters[o.index]);
-                            }},
-    LayoutEffectDescription{"thruster_lag", "lag += tau", kLayoutTau, thruster, LayoutScale::one,
-                            "fast steps of the command",
-                            [](Layout& l, const Owner& o, Values v) { l.thrusters[o.index].lag_s += v[0]; }},
-    LayoutEffectDescription{"thruster_offset", "command += o, in % of its range", kLayoutPercent, thruster,
-                            LayoutScale::one, "hover, and steps up and down",
-                            [](Layout& l, const Owner& o, Values v) {
-                              l.thrusters[o.index].heard.offset += v[0] / 100 * half_range(l.thrusters[o.index]);
-                            }},
-    LayoutEffectDescription{"weight", "m += dm, at the centre of gravity", kLayoutMass, vehicle,
-                            LayoutScale::mass_kg, "hover or glide with thrusters off",
-                            [](Layout& l, const Owner&, Values v) { l.body.mass_kg += v[0]; }},
-    LayoutEffectDescription{"yaw_damping", "N -= k M66 r", kLayoutPerSecond, vehicle, LayoutScale::one,
-                            "turns at several rates", change_yaw_damping},
+    Row{"thrust_scale", "thrust *= 1 + k", kLayoutScaleOf, thruster, LayoutScale::one,
+        "speed steps on reciprocal legs", change_thrust_scale},
+    Row{"thruster_dead_band", "dead band += b, in % of the command's range", kLayoutBand, thruster,
+        LayoutScale::one, "small commands about neutral",
+        [](Layout& l, const Owner& o, Values v) {
+          l.thrusters[o.index].dead_band += v[0] / 100 * half_range(l.thrusters[o.index]);
+        }},
+    Row{"thruster_lag", "lag += tau", kLayoutTau, thruster, LayoutScale::one, "fast steps of the command",
+        [](Layout& l, const Owner& o, Values v) { l.thrusters[o.index].lag_s += v[0]; }},
+    Row{"thruster_offset", "command += o, in % of its range", kLayoutPercent, thruster, LayoutScale::one,
+        "hover, and steps up and down",
+        [](Layout& l, const Owner& o, Values v) {
+          l.thrusters[o.index].heard.offset += v[0] / 100 * half_range(l.thrusters[o.index]);
+        }},
+    Row{"weight", "m += dm, at the centre of gravity", kLayoutMass, vehicle, LayoutScale::mass_kg,
+        "hover or glide with thrusters off", [](Layout& l, const Owner&, Values v) { l.body.mass_kg += v[0]; }},
+    Row{"yaw_damping", "N -= k M66 r", kLayoutPerSecond, vehicle, LayoutScale::one, "turns at several rates",
+        change_yaw_damping},
 };
 
 std::string_view word_of(LayoutPart part) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gap/data/track.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "gap/verdict/diagnosis.h"
 
 namespace navcal::gap {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gap/design/planner.h"
 #include "gap/design/question.h"
-#include "gap/design/rehearsal.h"
 #include "gap/verdict/prepare.h"
 
 namespace navcal::gap::test {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gap/inference/prediction_error_filter.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
+
+#include "gap/inference/whitening.h"
 
 namespace navcal::gap {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gap/inference/score_table.h"
-
 #include <gtest/gtest.h>
+
+#include "gap/inference/subset_search.h"
 
 namespace navcal::gap {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gap/nulls/bank_file.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "gap/nulls/bank_cache.h"
 #include "tests/gap/nulls/made_up_bank.h"
 
 namespace navcal::gap {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gap/data/innovations.h"
-#include "gap/replay/reported_channels.h"
+#include "gap/replay/regimes.h"
 #include "sim/effects/effect_set.h"
 
 namespace navcal::gap {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gap/sources/telling_piece.h"
-
 #include <gtest/gtest.h>
+
+#include "gap/verdict/sources.h"
 
 namespace navcal::gap {
 namespace {

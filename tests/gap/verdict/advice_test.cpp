@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gap/verdict/advice.h"
-
 #include <gtest/gtest.h>
+
+#include "gap/verdict/answer.h"
 
 namespace navcal::gap {
 namespace {

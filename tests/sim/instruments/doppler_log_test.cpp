@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/instruments/doppler_log.h"
 
 #include <gtest/gtest.h>
 

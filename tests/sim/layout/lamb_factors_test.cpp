@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/layout/added_mass.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim {
 namespace {

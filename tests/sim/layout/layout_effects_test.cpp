@@ -10,9 +10,9 @@
 
 #include "config/layout/layout_file.h"
 #include "sim/effects/document.h"
-#include "sim/layout/added_mass.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim::testing {
 namespace {

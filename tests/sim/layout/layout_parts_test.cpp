@@ -7,10 +7,8 @@
 #include <random>
 
 #include "autopilot/thrust_curve.h"
-#include "sim/layout/added_mass.h"
-#include "sim/layout/damping.h"
 #include "sim/layout/layout_vehicle.h"
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim::testing {
 namespace {

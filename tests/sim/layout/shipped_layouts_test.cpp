@@ -7,11 +7,10 @@
 #include <numbers>
 
 #include "config/layout/layout_file.h"
-#include "sim/layout/added_mass.h"
 #include "sim/layout/assessment/assessment.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
-#include "sim/layout/rigid_body.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "validation/reference/lag.h"
+#include "validation/reference/compass.h"
 #include "validation/reference/rng.h"
 
 namespace navcal::reference::testing {

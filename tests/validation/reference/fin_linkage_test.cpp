@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validation/reference/fin_linkage.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
+
+#include "validation/reference/vehicle.h"
 
 namespace navcal::reference::testing {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "web/outlets/blueos.h"
+#include "web/outlets/outlets.h"
 
 namespace navcal::web {
 namespace {

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "web/outlets/signalk_feed.h"
-
 namespace navcal::web {
 namespace {
 

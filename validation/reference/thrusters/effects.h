@@ -10,7 +10,6 @@
 
 #include "validation/reference/parameter_deviations.h"
 #include "validation/reference/rng.h"
-#include "validation/reference/thrusters/deviations.h"
 #include "validation/reference/thrusters/plan.h"
 
 namespace navcal::reference::thrusters {

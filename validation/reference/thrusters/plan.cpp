@@ -2,7 +2,6 @@
 #include "validation/reference/thrusters/plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace navcal::reference::thrusters {

@@ -2,7 +2,6 @@
 #include "validation/reference/thrusters/rotor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace navcal::reference::thrusters {

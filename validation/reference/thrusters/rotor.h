@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "validation/reference/thrusters/deviations.h"
 #include "validation/reference/thrusters/plan.h"
 
 namespace navcal::reference::thrusters {

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "config/layout/layout_file.h"
-#include "sim/layout/added_mass.h"
 #include "sim/layout/assessment/assessment.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
+#include "sim/layout/mass_matrix.h"
 #include "tests/validation/reference/thrusters/shipped_plan.h"
 #include "validation/reference/thrusters/craft.h"
 #include "validation/reference/thrusters/outputs.h"

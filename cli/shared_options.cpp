@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/effect_options.h"
+#include "cli/shared_options.h"
 
 #include <fmt/format.h>
 
@@ -7,28 +7,44 @@
 #include <charconv>
 #include <cstdio>
 #include <optional>
-#include <string>
 #include <string_view>
+
+#include "analysis/failure.h"
+#include "cli/option_kinds.h"
 
 namespace navcal::cli {
 
+record::TimeWindow WindowOptions::window() const {
+  const auto bound = [](const char* option, const std::string& text) -> std::optional<record::TimeBound> {
+    if (text.empty()) return std::nullopt;
+    const auto found = record::parse_time_bound(text);
+    if (!found)
+      throw analysis::Failure(analysis::Exit::usage, std::string(option) + ' ' + text +
+                                                         ": expected seconds from the start, or UTC such as "
+                                                         "2026-01-01T00:00:12Z");
+    return found;
+  };
+  return {bound("--from", from), bound("--to", to)};
+}
+
+void add_window(CLI::App& command, WindowOptions& options, const std::string& from_otherwise) {
+  add_valued(&command, "--from", "T", options.from,
+             "begin of the part of each recording that is used: seconds from its start, or UTC" + from_otherwise);
+  add_valued(&command, "--to", "T", options.to, "end of that part");
+}
+
 void add_effect_options(CLI::App* command, std::vector<std::string>& effects, std::filesystem::path& file) {
-  command
-      ->add_option("--effect", effects,
-                   "departure from the nominal model, in typical strengths (default: 1); its direction comes from "
-                   "the seed;\nrepeatable. Of a part of a layout: thrust_scale@thruster.2=1. navcal simulate "
-                   "--list-effects names all")
-      ->option_text("NAME[@OF][=STRENGTH]")
+  add_valued(command, "--effect", "NAME[@OF][=STRENGTH]", effects,
+             "departure from the nominal model, in typical strengths (default: 1); its direction comes from "
+             "the seed;\nrepeatable. Of a part of a layout: thrust_scale@thruster.2=1. navcal simulate "
+             "--list-effects names all")
       ->each([](const std::string& text) {
         if (text.find('=') == std::string::npos)
           fmt::print(stderr, "navcal: --effect {0}: strength 1, the typical one; half of it: --effect {0}=0.5\n",
                      text);
       });
-  command
-      ->add_option(
-          "--effects", file,
-          "departures with exact parameters: one table [NAME] for each, which may have from_s and until_s")
-      ->option_text("FILE.toml");
+  add_valued(command, "--effects", "FILE.toml", file,
+             "departures with exact parameters: one table [NAME] for each, which may have from_s and until_s");
 }
 
 namespace {
@@ -68,6 +84,14 @@ void add_clock_option(CLI::App* command, std::vector<sim::ClockFactor>& clocks) 
           "true rate of compass, imu or motor over the nominal one, by its clock, such as compass=0.99; "
           "repeatable")
       ->option_text("PORT=FACTOR");
+}
+
+void add_place_and_field(CLI::App* command, analysis::PlaceArguments& arguments) {
+  add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", arguments.place,
+             "degrees north and east, metres above the ellipsoid; the Earth's field there is the World "
+             "Magnetic Model's");
+  add_valued(command, "--field", "N,E,D", arguments.field,
+             "the Earth's field in uT: north, east and down of true north");
 }
 
 }  // namespace navcal::cli
