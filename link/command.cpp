@@ -12,10 +12,7 @@ constexpr std::size_t kHolderBytes = 64;
 constexpr std::size_t kErrorBytes = 160;
 
 template <class Fields, class Content>
-void lay_out(Fields& fields, Content& command) requires requires {
-  command.fins_deg;
-}
-{
+void lay_out_command(Fields& fields, Content& command) {
   fields.number(command.number);
   if (command.kind == Command::Kind::lease) {
     fields.number(command.priority);
@@ -28,11 +25,7 @@ void lay_out(Fields& fields, Content& command) requires requires {
     fields.text(command.holder, kHolderBytes);
 }
 
-template <class Fields, class Content>
-void lay_out(Fields& fields, Content& answer) requires requires {
-  answer.is_shaped;
-}
-{
+void lay_out_answer(auto& fields, auto& answer) {
   fields.number(answer.number);
   fields.flags(answer.is_ok, answer.is_shaped, answer.is_in_charge);
   fields.text(answer.error, kErrorBytes);
@@ -43,7 +36,7 @@ void lay_out(Fields& fields, Content& answer) requires requires {
 Buffer encode_command(const Command& command) {
   FieldWriter out;
   out.put(static_cast<std::uint8_t>(command.kind));
-  lay_out(out, command);
+  lay_out_command(out, command);
   return std::move(out).take();
 }
 
@@ -52,20 +45,20 @@ std::optional<Command> decode_command(Bytes payload) {
   Command command;
   command.kind = static_cast<Command::Kind>(in.get<std::uint8_t>());
   if (command.kind < Command::Kind::lease || command.kind > Command::Kind::stop) return std::nullopt;
-  lay_out(in, command);
+  lay_out_command(in, command);
   return in.is_all() ? std::optional(std::move(command)) : std::nullopt;
 }
 
 Buffer encode_answer(const CommandAnswer& answer) {
   FieldWriter out;
-  lay_out(out, answer);
+  lay_out_answer(out, answer);
   return std::move(out).take();
 }
 
 std::optional<CommandAnswer> decode_answer(Bytes payload) {
   FieldReader in(payload);
   CommandAnswer answer;
-  lay_out(in, answer);
+  lay_out_answer(in, answer);
   return in.is_all() ? std::optional(std::move(answer)) : std::nullopt;
 }
 

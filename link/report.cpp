@@ -19,7 +19,7 @@ constexpr double kHundredth = 0.01;
 
 /// All behind the time, but for the state of a calibrator.
 template <class Fields>
-void lay_out(Fields& fields, auto& r) {
+void lay_out_report(Fields& fields, auto& r) {
   const auto centidegrees = [&](auto& angle) { fields.template scaled<std::int16_t>(angle, kCentidegree); };
   fields.template scaled<std::uint16_t>(r.heading_deg, kCentidegree);
   centidegrees(r.pitch_deg);
@@ -79,7 +79,7 @@ Buffer encode_report(const Report& report) {
   const auto time = static_cast<std::uint64_t>(report.time_utc_ms.value_or(0));
   out.put(static_cast<std::uint16_t>(time >> 32));
   out.put(static_cast<std::uint32_t>(time));
-  lay_out(out, report);
+  lay_out_report(out, report);
   if (report.calibration) lay_out_calibration(out, *report.calibration);
   return std::move(out).take();
 }
@@ -93,7 +93,7 @@ std::optional<Report> decode_report(Bytes payload) {
   const std::uint64_t high = in.get<std::uint16_t>();
   const std::uint64_t time = high << 32 | in.get<std::uint32_t>();
   if (has_time) report.time_utc_ms = static_cast<std::int64_t>(time);
-  lay_out(in, report);
+  lay_out_report(in, report);
   if (!in.is_whole()) return std::nullopt;
   if (!in.rest().empty()) lay_out_calibration(in, report.calibration.emplace());
   return in.is_whole() ? std::optional(std::move(report)) : std::nullopt;

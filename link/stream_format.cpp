@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint8_t kLast = 1;
 
-void lay_out(auto& fields, auto& ack) {
+void lay_out_ack(auto& fields, auto& ack) {
   fields.number(ack.next);
   fields.number(ack.others);
   fields.number(ack.counter);
@@ -37,14 +37,14 @@ std::optional<Segment> decode_segment(Bytes payload) {
 
 Buffer encode_ack(const Ack& ack) {
   FieldWriter out;
-  lay_out(out, ack);
+  lay_out_ack(out, ack);
   return std::move(out).take();
 }
 
 std::optional<Ack> decode_ack(Bytes payload) {
   FieldReader in(payload);
   Ack ack;
-  lay_out(in, ack);
+  lay_out_ack(in, ack);
   return in.is_all() ? std::optional(ack) : std::nullopt;
 }
 
