@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "config/load.h"
+#include "daemon/json_text.h"
+#include "record/json/json_object.h"
 
 namespace navcal::daemon {
 namespace {
@@ -66,7 +68,29 @@ void LogWriter::raw(std::uint16_t port, record::Direction direction, std::int64_
 }
 
 void LogWriter::publish(const record::MessageHead& head, const record::AppendJson& append) {
-  if (feed_ != nullptr) feed_->publish(head, head.utc_ns.value_or(mapping_.to_utc(head.validity_ns)), append);
+  RecordKey key{head.topic, std::nullopt, head.repeats};
+  const auto found = std::find(ports_.begin(), ports_.end(), head.device);
+  // The estimate's virtual device follows those of the ports (navigation_device).
+  if (found != ports_.end() || head.device == pipeline::kNavigationDevice)
+    key.port = static_cast<std::uint16_t>(found - ports_.begin());
+  if (server_ == nullptr || !server_->watched(key)) return;
+  const std::int64_t utc_ns = head.utc_ns.value_or(mapping_.to_utc(head.validity_ns));
+  line_ = R"({"class":"RECORD","topic":")";
+  for (const record::Topic& known : record::json_topics()) {
+    if (known.id == key.topic) line_ += known.name;
+  }
+  line_ += R"(","device":)";
+  if (head.device.empty()) {
+    line_ += "null";
+  } else {
+    append_quoted(line_, head.device);
+  }
+  line_ += ",\"time\":";
+  utc_ns < pipeline::kFirstUtc_ns ? void(line_ += "null") : record::append_seconds(line_, utc_ns);
+  line_ += ",\"message\":";
+  record::append_payload(line_, append);
+  line_ += "}\r\n";
+  server_->publish(key, line_);
 }
 
 void LogWriter::put(const record::MessageHead& head, const record::AppendJson& append_json) {

@@ -13,7 +13,7 @@
 #include "config/log_choice.h"
 #include "config/settings.h"
 #include "daemon/disk_thread.h"
-#include "daemon/record_feed.h"
+#include "daemon/status_server.h"
 #include "pipeline/utc_mapping.h"
 #include "record/log/log_encoder.h"
 
@@ -23,18 +23,19 @@ namespace navcal::daemon {
 [[nodiscard]] std::string words_for_choice(const std::vector<std::string>& leave_out);
 
 /// Front end of the log for the I/O thread: encodes records into the disk thread's buffer, decides when a new
-/// file begins, and reports lost records. It writes nothing when the log is switched off. A RecordFeed gets every
-/// JSON message, also those that are not logged.
+/// file begins, and reports lost records. It writes nothing when the log is switched off. Clients
+/// of the status socket that ask for RECORD (docs/status-protocol.md) get every JSON message, also those that are
+/// not logged; nothing is encoded while nobody asks.
 class LogWriter : public record::LogMessages<LogWriter> {
  public:
   /// Begins the first file, as soon as the log folder can be taken; state() tells.
   LogWriter(const config::Settings& settings, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
 
-  /// `feed` must live as long as this object.
-  void tell(RecordFeed& feed) { feed_ = &feed; }
+  /// `server` must live as long as this object.
+  void tell(StatusServer& server) { server_ = &server; }
 
   void raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns, protocols::Bytes bytes);
-  /// A message of the log, for the feed and for the file if it has such.
+  /// A message of the log, for the clients, and for the file if it has such.
   void put(const record::MessageHead& head, const record::AppendJson& append);
   [[nodiscard]] std::string_view port_name(std::uint16_t port) const { return ports_[port]; }
   /// Unlike calib(), which a replay needs and which is never left out.
@@ -76,7 +77,8 @@ class LogWriter : public record::LogMessages<LogWriter> {
   void append(Encode&& encode);
 
   config::LogSettings settings_;
-  RecordFeed* feed_ = nullptr;
+  StatusServer* server_ = nullptr;
+  std::string line_;  ///< of a RECORD
   record::LogEncoder encoder_;
   std::unique_ptr<DiskThread> disk_;
   std::function<std::string(std::int64_t now_ns)> calibration_;
