@@ -13,12 +13,8 @@
 #include "pipeline/battery.h"
 #include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
-#include "record/json/battery_json.h"
-#include "record/json/command_json.h"
-#include "record/json/event_json.h"
 #include "record/json/mapping_json.h"
-#include "record/json/navigation_json.h"
-#include "record/json/sample_json.h"
+#include "record/json/message_json.h"
 #include "record/log/log_topics.h"
 
 namespace navcal::record {
