@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "analysis/port_matching.h"
-#include "record/json/battery_json.h"
+#include "record/json/message_json.h"
 
 namespace navcal::analysis {
 namespace {

@@ -13,10 +13,7 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "config/load.h"
-#include "record/json/battery_json.h"
-#include "record/json/event_json.h"
-#include "record/json/navigation_json.h"
-#include "record/json/sample_json.h"
+#include "record/json/message_json.h"
 #include "record/recording.h"
 
 namespace navcal::cli {

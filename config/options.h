@@ -11,14 +11,10 @@ namespace navcal::config {
 /// The options outside ports, table by table in the order of the file.
 [[nodiscard]] const std::vector<Option<Settings>>& daemon_options();
 
-/// Its parts: [roles], [instruments], [calibration], [navigation], [command], [battery] and [remote].
-[[nodiscard]] std::vector<Option<Settings>> role_options();
+/// Its parts [instruments], [calibration] and [navigation].
 [[nodiscard]] std::vector<Option<Settings>> instrument_options();
 [[nodiscard]] std::vector<Option<Settings>> calibration_options();
 [[nodiscard]] std::vector<Option<Settings>> navigation_options();
-[[nodiscard]] std::vector<Option<Settings>> command_options();
-[[nodiscard]] std::vector<Option<Settings>> battery_options();
-[[nodiscard]] std::vector<Option<Settings>> remote_options();
 
 /// The options of a [port.NAME] table, those of its own first, then sub-table by sub-table.
 [[nodiscard]] const std::vector<Option<PortSettings>>& port_options();

@@ -2,7 +2,6 @@
 #include "daemon/control_request.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,45 +13,19 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, ControlCommand>, 24> kCommands{{
-    {"event", ControlCommand::event},
-    {"log.rotate", ControlCommand::log_rotate},
-    {"log.start", ControlCommand::log_start},
-    {"log.stop", ControlCommand::log_stop},
-    {"log.select", ControlCommand::log_select},
-    {"log.list", ControlCommand::log_list},
-    {"log.read", ControlCommand::log_read},
-    {"log.sum", ControlCommand::log_sum},
-    {"power.on", ControlCommand::power_on},
-    {"power.off", ControlCommand::power_off},
-    {"power.list", ControlCommand::power_list},
-    {"calibration.start", ControlCommand::calibration_start},
-    {"calibration.accept", ControlCommand::calibration_accept},
-    {"calibration.rollback", ControlCommand::calibration_rollback},
-    {"calibration.stop", ControlCommand::calibration_stop},
-    {"motor.lease", ControlCommand::motor_lease},
-    {"motor.order", ControlCommand::motor_order},
-    {"motor.release", ControlCommand::motor_release},
-    {"motor.stop", ControlCommand::motor_stop},
-    {"battery.full", ControlCommand::battery_full},
-    {"battery.set", ControlCommand::battery_set},
-    {"device.command", ControlCommand::device_command},
-    {"device.commands", ControlCommand::device_commands},
-    {"status", ControlCommand::status},
-}};
+/// In the order of ControlCommand.
+constexpr std::string_view kCommands =
+    "event, log.rotate, log.start, log.stop, log.select, log.list, log.read, log.sum, power.on, power.off, "
+    "power.list, "
+    "calibration.start, calibration.accept, calibration.rollback, calibration.stop, motor.lease, motor.order, "
+    "motor.release, motor.stop, battery.full, battery.set, device.command, device.commands, status";
 
-std::string known_commands() {
-  std::string names;
-  for (const auto& [name, command] : kCommands) {
-    if (!names.empty()) names += ", ";
-    names += name;
-  }
-  return names;
-}
-
-std::optional<ControlCommand> command_named(const std::string& text) {
-  for (const auto& [name, command] : kCommands) {
-    if (text == name) return command;
+std::optional<ControlCommand> command_named(std::string_view name) {
+  int number = 0;
+  for (std::string_view rest = kCommands; !rest.empty(); ++number) {
+    const std::size_t end = std::min(rest.find(", "), rest.size());
+    if (rest.substr(0, end) == name) return static_cast<ControlCommand>(number);
+    rest.remove_prefix(std::min(end + 2, rest.size()));
   }
   return std::nullopt;
 }
@@ -219,7 +192,7 @@ std::variant<ControlRequest, std::string> parse_control(std::string_view line) {
   if (!object.is_object()) return "not a JSON object; for example {\"command\":\"status\"}";
   const auto name = text_at(object, "command");
   const auto command = name ? command_named(*name) : std::nullopt;
-  if (!command) return "unknown command; known are " + known_commands();
+  if (!command) return "unknown command; known are " + std::string(kCommands);
   const auto text = text_at(object, "text");
   const auto calibrator = text_at(object, "calibrator");
   if (!text || !calibrator) return "text and calibrator are strings";

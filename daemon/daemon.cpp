@@ -43,13 +43,13 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
               settings_.status, *this),
       control_(sockets.control ? std::move(*sockets.control) : listen_control(executor, settings_.control),
                sockets.control ? std::filesystem::path() : settings_.control.socket, *this),
-      records_(settings_, server_), log_(settings_, started_ns_, first_mapping()),
-      calibrations_(settings_, pipeline_, log_, server_), battery_(settings_), publisher_(settings_, server_),
-      nmea_(settings_, pipeline_, server_), notifier_(executor), motor_port_(daemon::motor_port(settings_)),
+      log_(settings_, started_ns_, first_mapping()), calibrations_(settings_, pipeline_, log_, server_),
+      battery_(settings_), publisher_(settings_, server_), nmea_(settings_, pipeline_, server_),
+      notifier_(executor), motor_port_(daemon::motor_port(settings_)),
       power_(executor, settings_, sessions_, *this), state_(settings_, pipeline_),
       state_timer_(executor, [this] { ring_state(); }), deadline_timer_(executor, [this] { advance(); }),
       tick_timer_(executor, [this] { tick(); }), stop_timer_(executor, [this] { stop_when_safe(); }) {
-  log_.tell(records_);
+  log_.tell(server_);
   PortOwner& owner = *this;
   for (std::uint16_t port = 0; port < Daemon::device_count(); ++port) {
     sessions_.push_back(std::make_unique<PortSession>(executor, port, settings_.ports[port], owner));

@@ -174,7 +174,6 @@ class Daemon : private pipeline::Sink,
   pipeline::SystemClockWatch clock_watch_;
   StatusServer server_;
   ControlServer control_;
-  RecordFeed records_;
   LogWriter log_;  ///< after the sockets: a second daemon must not begin a file before it finds them taken
   Calibrations calibrations_;
   BatteryKeeper battery_;

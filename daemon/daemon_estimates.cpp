@@ -2,7 +2,7 @@
 // The battery, and the alarms that follow from estimates.
 
 #include "daemon/daemon.h"
-#include "record/json/battery_json.h"
+#include "record/json/message_json.h"
 
 namespace navcal::daemon {
 namespace {
@@ -35,7 +35,7 @@ void Daemon::set_battery(const pipeline::BatteryCharge& charge, std::string_view
   const std::int64_t now_ns = ports::monotonic_ns();
   pipeline_.advance(now_ns, *this);  // what is due by then comes before it, live as in replay
   pipeline_.set_battery(charge);
-  // The numbers in full, so that replay sets the same charge (record/json/battery_json.h).
+  // The numbers in full, so that replay sets the same charge (record/json/message_json.h).
   event(now_ns, "info", "battery.set", "", record::battery_event_words(charge, cause));
 }
 

@@ -10,7 +10,7 @@
 #include "base/angles.h"
 #include "base/durations.h"
 #include "daemon/json_text.h"
-#include "record/json/sample_json.h"
+#include "record/json/message_json.h"
 
 namespace navcal::daemon {
 namespace {

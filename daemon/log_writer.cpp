@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "config/load.h"
+#include "daemon/json_text.h"
+#include "record/json/json_object.h"
 
 namespace navcal::daemon {
 namespace {
@@ -30,7 +32,8 @@ std::string words_for_choice(const std::vector<std::string>& leave_out) {
 }
 
 LogWriter::LogWriter(const config::Settings& settings, std::int64_t now_ns, const pipeline::UtcMapping& mapping)
-    : settings_(settings.log), encoder_(settings, config::to_toml(settings)), mapping_(mapping) {
+    : settings_(settings.log), encoder_(settings, config::to_toml(settings)) {
+  mapping_ = mapping;
   for (const auto& port : settings.ports) ports_.push_back(port.name);
   leave_out(settings_.leave_out);
   if (!settings_.enabled) return;
@@ -64,49 +67,47 @@ void LogWriter::raw(std::uint16_t port, record::Direction direction, std::int64_
   append([&](std::string& out) { encoder_.raw(out, port, direction, time_ns, bytes); });
 }
 
-void LogWriter::sample(const instruments::Sample& sample) {
-  if (feed_ != nullptr) feed_->sample(sample);
-  if (!has(config::LogGroup::samples)) return;
-  append([&](std::string& out) { encoder_.sample(out, sample); });
+void LogWriter::publish(const record::MessageHead& head, const record::AppendJson& append) {
+  RecordKey key{head.topic, std::nullopt, head.repeats};
+  const auto found = std::find(ports_.begin(), ports_.end(), head.device);
+  // The estimate's virtual device follows those of the ports (navigation_device).
+  if (found != ports_.end() || head.device == pipeline::kNavigationDevice)
+    key.port = static_cast<std::uint16_t>(found - ports_.begin());
+  if (server_ == nullptr || !server_->watched(key)) return;
+  const std::int64_t utc_ns = head.utc_ns.value_or(mapping_.to_utc(head.validity_ns));
+  line_ = R"({"class":"RECORD","topic":")";
+  for (const record::Topic& known : record::json_topics()) {
+    if (known.id == key.topic) line_ += known.name;
+  }
+  line_ += R"(","device":)";
+  if (head.device.empty()) {
+    line_ += "null";
+  } else {
+    append_quoted(line_, head.device);
+  }
+  line_ += ",\"time\":";
+  utc_ns < pipeline::kFirstUtc_ns ? void(line_ += "null") : record::append_seconds(line_, utc_ns);
+  line_ += ",\"message\":";
+  record::append_payload(line_, append);
+  line_ += "}\r\n";
+  server_->publish(key, line_);
 }
 
-void LogWriter::navigation(const pipeline::NavigationSample& sample) {
-  if (feed_ != nullptr) feed_->navigation(sample);
-  if (!has(config::LogGroup::navigation)) return;
-  append([&](std::string& out) { encoder_.navigation(out, sample); });
-}
-
-void LogWriter::battery(const pipeline::BatterySample& sample) {
-  if (feed_ != nullptr) feed_->battery(sample);
-  append([&](std::string& out) { encoder_.battery(out, sample); });
-}
-
-void LogWriter::mapping(std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
-  if (feed_ != nullptr) feed_->mapping(now_ns, mapping);
-  mapping_ = mapping;
-  append([&](std::string& out) { encoder_.mapping(out, now_ns, mapping); });
-}
-
-void LogWriter::event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
-                      std::string_view message) {
-  if (feed_ != nullptr) feed_->event(now_ns, severity, name, port, message);
-  append([&](std::string& out) { encoder_.event(out, now_ns, severity, name, port, message); });
-}
-
-void LogWriter::health(std::int64_t now_ns, std::string_view json) {
-  if (feed_ != nullptr) feed_->health(now_ns, json);
-  if (!has(config::LogGroup::health)) return;
-  append([&](std::string& out) { encoder_.health(out, now_ns, json); });
-}
-
-void LogWriter::calib(std::int64_t now_ns, std::string_view json) {
-  if (feed_ != nullptr) feed_->calib(now_ns, json);
-  append([&](std::string& out) { encoder_.calib(out, now_ns, json); });
+void LogWriter::put(const record::MessageHead& head, const record::AppendJson& append_json) {
+  namespace topic = record::topic;
+  publish(head, append_json);
+  const bool is_sample = head.repeats && head.topic != topic::kNav && head.topic != topic::kBattery;
+  if ((is_sample && !has(config::LogGroup::samples)) ||
+      (head.topic == topic::kNav && !has(config::LogGroup::navigation)) ||
+      (head.topic == topic::kHealth && !has(config::LogGroup::health)) ||
+      (head.topic == topic::kCommand && !has(config::LogGroup::commands)))
+    return;
+  append([&](std::string& out) { encoder_.put(out, head, append_json); });
 }
 
 void LogWriter::calib_report(std::int64_t now_ns, std::string_view json) {
-  if (feed_ != nullptr) feed_->calib(now_ns, json);
-  if (has(config::LogGroup::calibration)) append([&](std::string& out) { encoder_.calib(out, now_ns, json); });
+  if (has(config::LogGroup::calibration)) return calib(now_ns, json);
+  publish({record::topic::kCalib, now_ns, now_ns}, [&](std::string& out) { out += json; });
 }
 
 void LogWriter::leave_out(std::vector<std::string> choice) {
@@ -134,12 +135,6 @@ void LogWriter::start(std::int64_t now_ns) {
   begin_file(now_ns);
 }
 
-void LogWriter::command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record) {
-  if (feed_ != nullptr) feed_->command(now_ns, device, record);
-  if (!has(config::LogGroup::commands)) return;
-  append([&](std::string& out) { encoder_.command(out, now_ns, device, record); });
-}
-
 void LogWriter::rotate(std::int64_t now_ns) {
   if (!disk_ || stopped_) return;
   disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });
@@ -164,7 +159,10 @@ void LogWriter::tick(std::int64_t now_ns) {
                   dropped - told_dropped_, settings_.queue_bytes / 1'000'000);
   const bool told =
       disk_->append([&](std::string& out) { encoder_.event(out, now_ns, "error", "log.dropped", "", words); });
-  if (told && feed_ != nullptr) feed_->event(now_ns, "error", "log.dropped", "", words);
+  if (told)
+    publish({record::topic::kEvent, now_ns, now_ns}, [&](std::string& out) {
+      record::append_event_json(out, mapping_, now_ns, "error", "log.dropped", "", words);
+    });
   // Without room this event is lost as well, and the next one reports the total.
   if (told) told_dropped_ = dropped;
 }

@@ -13,9 +13,7 @@
 #include "config/log_choice.h"
 #include "config/settings.h"
 #include "daemon/disk_thread.h"
-#include "daemon/record_feed.h"
-#include "instruments/samples.h"
-#include "pipeline/navigation.h"
+#include "daemon/status_server.h"
 #include "pipeline/utc_mapping.h"
 #include "record/log/log_encoder.h"
 
@@ -25,33 +23,23 @@ namespace navcal::daemon {
 [[nodiscard]] std::string words_for_choice(const std::vector<std::string>& leave_out);
 
 /// Front end of the log for the I/O thread: encodes records into the disk thread's buffer, decides when a new
-/// file begins, and reports lost records. It writes nothing when the log is switched off. A RecordFeed gets every
-/// JSON message, also those that are not logged.
-class LogWriter {
+/// file begins, and reports lost records. It writes nothing when the log is switched off. Clients
+/// of the status socket that ask for RECORD (docs/status-protocol.md) get every JSON message, also those that are
+/// not logged; nothing is encoded while nobody asks.
+class LogWriter : public record::LogMessages<LogWriter> {
  public:
   /// Begins the first file, as soon as the log folder can be taken; state() tells.
   LogWriter(const config::Settings& settings, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
 
-  /// `feed` must live as long as this object.
-  void tell(RecordFeed& feed) {
-    feed_ = &feed;
-    feed_->set_mapping(mapping_);
-  }
+  /// `server` must live as long as this object.
+  void tell(StatusServer& server) { server_ = &server; }
 
   void raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns, protocols::Bytes bytes);
-  void sample(const instruments::Sample& sample);
-  void navigation(const pipeline::NavigationSample& sample);
-  void battery(const pipeline::BatterySample& sample);
-  void mapping(std::int64_t now_ns, const pipeline::UtcMapping& mapping);
-  void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
-             std::string_view message);
-  void health(std::int64_t now_ns, std::string_view json);
-  /// What a replay needs of the calibration: never left out.
-  void calib(std::int64_t now_ns, std::string_view json);
+  /// A message of the log, for the clients, and for the file if it has such.
+  void put(const record::MessageHead& head, const record::AppendJson& append);
+  [[nodiscard]] std::string_view port_name(std::uint16_t port) const { return ports_[port]; }
+  /// Unlike calib(), which a replay needs and which is never left out.
   void calib_report(std::int64_t now_ns, std::string_view json);
-
-  void command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record);
-
   /// Sets the source of the calibration object for /calib. Every later file begins with it, besides
   /// configuration and time.
   void begin_files_with(std::function<std::string(std::int64_t)> calibration) {
@@ -84,14 +72,15 @@ class LogWriter {
  private:
   void begin_file(std::int64_t now_ns);
   [[nodiscard]] bool has(config::LogGroup group) const { return !left_out_.at(static_cast<std::size_t>(group)); }
+  void publish(const record::MessageHead& head, const record::AppendJson& append);
   template <class Encode>
   void append(Encode&& encode);
 
   config::LogSettings settings_;
-  RecordFeed* feed_ = nullptr;
+  StatusServer* server_ = nullptr;
+  std::string line_;  ///< of a RECORD
   record::LogEncoder encoder_;
   std::unique_ptr<DiskThread> disk_;
-  pipeline::UtcMapping mapping_;
   std::function<std::string(std::int64_t now_ns)> calibration_;
   std::int64_t file_begun_ns_ = 0;
   std::uint64_t told_dropped_ = 0;

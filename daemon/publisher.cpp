@@ -7,9 +7,7 @@
 #include <iterator>
 
 #include "daemon/json_text.h"
-#include "record/json/battery_json.h"
-#include "record/json/navigation_json.h"
-#include "record/json/sample_json.h"
+#include "record/json/message_json.h"
 
 namespace navcal::daemon {
 namespace {

@@ -94,88 +94,93 @@ bool take(const Json& object, const char* key, std::optional<T>& value) {
   return true;
 }
 
-/// ["STATE","TPV"]; null: the usual ones. Why it is neither; empty: taken.
-std::string take_classes(const Json& object, std::optional<ReportClasses>& value) {
-  const auto found = object.find("classes");
+/// Why a member of WATCH cannot be taken, for people; empty: it was.
+using WatchProblem = std::string;
+
+/// Interval of a rate; nullopt when it is none.
+std::optional<std::int64_t> interval_of(const Json& rate) {
+  const double rate_Hz = rate.is_number() ? rate.get<double>() : 0;
+  if (!(rate_Hz >= kMinReportRate_Hz && rate_Hz <= kMaxReportRate_Hz)) return std::nullopt;
+  return std::llround(1e9 / rate_Hz);
+}
+
+WatchProblem bad_rate(std::string_view what, std::string_view or_null = {}) {
+  return fmt::format("Invalid WATCH: {} {} to {} Hz{}", what, kMinReportRate_Hz, kMaxReportRate_Hz, or_null);
+}
+
+WatchProblem unknown_class() {
+  return fmt::format("Invalid WATCH: a class that is not known; known are {}", known_report_classes());
+}
+
+WatchProblem unknown_topic() {
+  return fmt::format("Invalid WATCH: a topic that is not known; known are {}", RecordTopics::all().text());
+}
+
+/// The member at `key`, with `take(member, chosen)`; null is the choice `usual`.
+template <class Choice, class Take>
+WatchProblem take_choice(const Json& object, const char* key, const Choice& usual, std::optional<Choice>& value,
+                         Take take) {
+  const auto found = object.find(key);
   if (found == object.end()) return {};
-  if (found->is_null()) value = ReportClasses::usual();
-  if (found->is_null()) return {};
-  if (!found->is_array()) return "Invalid WATCH: classes is a list of classes, or null";
-  ReportClasses classes;
-  for (const Json& name : *found) {
+  if (found->is_null()) {
+    value = usual;
+    return {};
+  }
+  Choice chosen{};
+  if (WatchProblem problem = take(*found, chosen); !problem.empty()) return problem;
+  value = chosen;
+  return {};
+}
+
+/// ["STATE","TPV"]
+WatchProblem read_classes(const Json& list, ReportClasses& classes) {
+  if (!list.is_array()) return "Invalid WATCH: classes is a list of classes, or null";
+  for (const Json& name : list) {
     const auto report = name.is_string() ? report_class_named(name.get<std::string>()) : std::nullopt;
-    if (!report)
-      return fmt::format("Invalid WATCH: a class that is not known; known are {}", known_report_classes());
+    if (!report) return unknown_class();
     classes.add(*report);
   }
-  value = classes;
   return {};
 }
 
-/// 2; null: the usual one. Likewise.
-std::string take_nmea_rate(const Json& object, std::optional<std::int64_t>& value) {
-  const auto found = object.find("nmea_rate_Hz");
-  if (found == object.end()) return {};
-  if (found->is_null()) value = kNmeaInterval_ns;
-  if (found->is_null()) return {};
-  const double rate_Hz = found->is_number() ? found->get<double>() : 0;
-  if (!(rate_Hz >= kMinReportRate_Hz && rate_Hz <= kMaxReportRate_Hz))
-    return fmt::format("Invalid WATCH: nmea_rate_Hz is {} to {} Hz, or null", kMinReportRate_Hz,
-                       kMaxReportRate_Hz);
-  value = std::llround(1e9 / rate_Hz);
-  return {};
-}
-
-/// ["/compass","/imu"]; null: all. Likewise.
-std::string take_topics(const Json& object, std::optional<RecordTopics>& value) {
-  const auto found = object.find("topics");
-  if (found == object.end()) return {};
-  if (found->is_null()) value = RecordTopics::all();
-  if (found->is_null()) return {};
-  if (!found->is_array()) return "Invalid WATCH: topics is a list of topics, or null";
-  RecordTopics topics;
-  for (const Json& name : *found) {
-    if (!name.is_string() || !topics.add(name.get<std::string>()))
-      return fmt::format("Invalid WATCH: a topic that is not known; known are {}", RecordTopics::all().text());
-  }
-  value = topics;
-  return {};
-}
-
-/// {"/imu":5,"/gps":null}: null is every record; null in place of the object: none is chosen. Likewise.
-std::string take_topic_rates(const Json& object, std::optional<RecordIntervals>& value) {
-  const auto found = object.find("topic_rate_Hz");
-  if (found == object.end()) return {};
-  if (!found->is_null() && !found->is_object()) return "Invalid WATCH: topic_rate_Hz is an object, or null";
-  RecordIntervals intervals_ns;
-  for (const auto& [name, rate] : found->items()) {
-    const double rate_Hz = rate.is_number() ? rate.get<double>() : 0;
-    if (!rate.is_null() && !(rate_Hz >= kMinReportRate_Hz && rate_Hz <= kMaxReportRate_Hz))
-      return fmt::format("Invalid WATCH: the rate of a topic is {} to {} Hz, or null", kMinReportRate_Hz,
-                         kMaxReportRate_Hz);
-    if (!intervals_ns.set(name, rate.is_null() ? 0 : std::llround(1e9 / rate_Hz)))
-      return fmt::format("Invalid WATCH: a topic that is not known; known are {}", RecordTopics::all().text());
-  }
-  value = intervals_ns;
-  return {};
-}
-
-/// {"STATE":10}; null: no limits. Likewise.
-std::string take_intervals(const Json& object, std::optional<ReportIntervals>& value) {
-  const auto found = object.find("rate_Hz");
-  if (found == object.end()) return {};
-  ReportIntervals intervals_ns{};
-  if (!found->is_null() && !found->is_object()) return "Invalid WATCH: rate_Hz is an object, or null";
-  for (const auto& [name, rate] : found->items()) {
+/// {"STATE":10}
+WatchProblem read_intervals(const Json& rates, ReportIntervals& intervals_ns) {
+  if (!rates.is_object()) return "Invalid WATCH: rate_Hz is an object, or null";
+  for (const auto& [name, rate] : rates.items()) {
     const auto report = report_class_named(name);
-    if (!report)
-      return fmt::format("Invalid WATCH: a class that is not known; known are {}", known_report_classes());
-    const double rate_Hz = rate.is_number() ? rate.get<double>() : 0;
-    if (!(rate_Hz >= kMinReportRate_Hz && rate_Hz <= kMaxReportRate_Hz))
-      return fmt::format("Invalid WATCH: a rate is {} to {} Hz", kMinReportRate_Hz, kMaxReportRate_Hz);
-    intervals_ns.at(static_cast<std::size_t>(*report)) = std::llround(1e9 / rate_Hz);
+    if (!report) return unknown_class();
+    const auto every_ns = interval_of(rate);
+    if (!every_ns) return bad_rate("a rate is");
+    intervals_ns.at(static_cast<std::size_t>(*report)) = *every_ns;
   }
-  value = intervals_ns;
+  return {};
+}
+
+/// 2
+WatchProblem read_nmea_rate(const Json& rate, std::int64_t& nmea_interval_ns) {
+  const auto every_ns = interval_of(rate);
+  if (!every_ns) return bad_rate("nmea_rate_Hz is", ", or null");
+  nmea_interval_ns = *every_ns;
+  return {};
+}
+
+/// ["/compass","/imu"]
+WatchProblem read_topics(const Json& list, RecordTopics& topics) {
+  if (!list.is_array()) return "Invalid WATCH: topics is a list of topics, or null";
+  for (const Json& name : list) {
+    if (!name.is_string() || !topics.add(name.get<std::string>())) return unknown_topic();
+  }
+  return {};
+}
+
+/// {"/imu":5,"/gps":null}: null is every record.
+WatchProblem read_topic_rates(const Json& rates, RecordIntervals& intervals_ns) {
+  if (!rates.is_object()) return "Invalid WATCH: topic_rate_Hz is an object, or null";
+  for (const auto& [name, rate] : rates.items()) {
+    const auto every_ns = rate.is_null() ? std::optional<std::int64_t>(0) : interval_of(rate);
+    if (!every_ns) return bad_rate("the rate of a topic is", ", or null");
+    if (!intervals_ns.set(name, *every_ns)) return unknown_topic();
+  }
   return {};
 }
 
@@ -186,13 +191,14 @@ Request watch(const Json& object) {
   if (!take(object, "json", change.json)) return not_understood("Invalid WATCH: json is true or false");
   if (!take(object, "nmea", change.nmea)) return not_understood("Invalid WATCH: nmea is true or false");
   if (!take(object, "device", change.device)) return not_understood("Invalid WATCH: device is a string");
-  if (auto problem = take_classes(object, change.classes); !problem.empty()) return not_understood(problem);
-  if (auto problem = take_intervals(object, change.intervals_ns); !problem.empty()) return not_understood(problem);
-  if (auto problem = take_nmea_rate(object, change.nmea_interval_ns); !problem.empty())
-    return not_understood(problem);
-  if (auto problem = take_topics(object, change.topics); !problem.empty()) return not_understood(problem);
-  if (auto problem = take_topic_rates(object, change.topic_intervals_ns); !problem.empty())
-    return not_understood(problem);
+  WatchProblem problem;
+  const auto is_bad = [&](WatchProblem found) { return !(problem = std::move(found)).empty(); };
+  if (is_bad(take_choice(object, "classes", ReportClasses::usual(), change.classes, read_classes)) ||
+      is_bad(take_choice(object, "rate_Hz", ReportIntervals{}, change.intervals_ns, read_intervals)) ||
+      is_bad(take_choice(object, "nmea_rate_Hz", kNmeaInterval_ns, change.nmea_interval_ns, read_nmea_rate)) ||
+      is_bad(take_choice(object, "topics", RecordTopics::all(), change.topics, read_topics)) ||
+      is_bad(take_choice(object, "topic_rate_Hz", RecordIntervals{}, change.topic_intervals_ns, read_topic_rates)))
+    return not_understood(std::move(problem));
   change.enable = enable.value_or(true);
   Request request;
   request.kind = Request::Kind::watch;

@@ -7,6 +7,13 @@ namespace {
 
 constexpr std::uint8_t kLast = 1;
 
+void lay_out_ack(auto& fields, auto& ack) {
+  fields.number(ack.next);
+  fields.number(ack.others);
+  fields.number(ack.counter);
+  fields.number(ack.held_ms);
+}
+
 }  // namespace
 
 Buffer encode_segment(const Segment& segment) {
@@ -30,22 +37,15 @@ std::optional<Segment> decode_segment(Bytes payload) {
 
 Buffer encode_ack(const Ack& ack) {
   FieldWriter out;
-  out.put(ack.next);
-  out.put(ack.others);
-  out.put(ack.counter);
-  out.put(ack.held_ms);
+  lay_out_ack(out, ack);
   return std::move(out).take();
 }
 
 std::optional<Ack> decode_ack(Bytes payload) {
   FieldReader in(payload);
   Ack ack;
-  ack.next = in.get<std::uint16_t>();
-  ack.others = in.get<std::uint32_t>();
-  ack.counter = in.get<std::uint32_t>();
-  ack.held_ms = in.get<std::uint16_t>();
-  if (!in.is_whole() || !in.rest().empty()) return std::nullopt;
-  return ack;
+  lay_out_ack(in, ack);
+  return in.is_all() ? std::optional(ack) : std::nullopt;
 }
 
 }  // namespace navcal::link

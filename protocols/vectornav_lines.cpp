@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/vectornav_lines.h"
 
+#include <algorithm>
 #include <array>
 
 #include "protocols/checked_line.h"
@@ -12,67 +13,57 @@ namespace {
 
 constexpr double kLineGauss_uT = 100, kLineKilopascal_Pa = 1000;
 
-template <std::size_t N>
-Triple three(const std::array<double, N>& values, std::size_t from, double unit = 1) {
-  return {values[from] * unit, values[from + 1] * unit, values[from + 2] * unit};
-}
-
-std::optional<Reading> read_ymr(std::string_view fields) {
-  const auto v = numbers<12>(fields);
-  if (!v) return std::nullopt;
-  Reading reading;
-  reading.yaw_pitch_roll_deg = three(*v, 0);
-  reading.field_uT = three(*v, 3, kLineGauss_uT);
-  reading.acceleration_m_s2 = three(*v, 6);
-  reading.rate_rad_s = three(*v, 9);
-  return reading;
-}
-
-std::optional<Reading> read_imu_line(std::string_view fields) {
-  const auto v = numbers<11>(fields);
-  if (!v) return std::nullopt;
-  Reading reading;
-  reading.raw_field_uT = three(*v, 0, kLineGauss_uT);
-  reading.raw_acceleration_m_s2 = three(*v, 3);
-  reading.raw_rate_rad_s = three(*v, 6);
-  reading.temperature_C = (*v)[9];
-  reading.pressure_Pa = (*v)[10] * kLineKilopascal_Pa;
-  return reading;
-}
-
-std::optional<Reading> read_mar(std::string_view fields) {
-  const auto v = numbers<9>(fields);
-  if (!v) return std::nullopt;
-  Reading reading;
-  reading.field_uT = three(*v, 0, kLineGauss_uT);
-  reading.acceleration_m_s2 = three(*v, 3);
-  reading.rate_rad_s = three(*v, 6);
-  return reading;
-}
-
-std::optional<Reading> read_three(std::string_view fields, std::optional<Triple> Reading::*member, double unit) {
-  const auto v = numbers<3>(fields);
-  if (!v) return std::nullopt;
-  Reading reading;
-  reading.*member = three(*v, 0, unit);
-  return reading;
-}
+struct Part {
+  std::optional<Triple> Reading::*member = nullptr;
+  double unit = 1;
+};
+/// The triples of a line, in their order.
+struct LineForm {
+  std::string_view name;
+  std::array<Part, 4> parts{};
+};
+using R = Reading;
+constexpr LineForm kForms[] = {
+    {"VNYMR",
+     {{{&R::yaw_pitch_roll_deg}, {&R::field_uT, kLineGauss_uT}, {&R::acceleration_m_s2}, {&R::rate_rad_s}}}},
+    {"VNIMU", {{{&R::raw_field_uT, kLineGauss_uT}, {&R::raw_acceleration_m_s2}, {&R::raw_rate_rad_s}}}},
+    {"VNMAR", {{{&R::field_uT, kLineGauss_uT}, {&R::acceleration_m_s2}, {&R::rate_rad_s}}}},
+    {"VNYPR", {{{&R::yaw_pitch_roll_deg}}}},
+    {"VNMAG", {{{&R::field_uT, kLineGauss_uT}}}},
+    {"VNACC", {{{&R::acceleration_m_s2}}}},
+    {"VNGYR", {{{&R::rate_rad_s}}}},
+};
 
 }  // namespace
 
 std::optional<Reading> decode_line(Bytes frame) {
-  const std::string_view body = body_of(frame);
-  const std::size_t comma = body.find(',');
-  if (comma == std::string_view::npos) return std::nullopt;
-  const std::string_view name = body.substr(0, comma), fields = body.substr(comma + 1);
-  if (name == "VNYMR") return read_ymr(fields);
-  if (name == "VNIMU") return read_imu_line(fields);
-  if (name == "VNMAR") return read_mar(fields);
-  if (name == "VNYPR") return read_three(fields, &Reading::yaw_pitch_roll_deg, 1);
-  if (name == "VNMAG") return read_three(fields, &Reading::field_uT, kLineGauss_uT);
-  if (name == "VNACC") return read_three(fields, &Reading::acceleration_m_s2, 1);
-  if (name == "VNGYR") return read_three(fields, &Reading::rate_rad_s, 1);
-  return std::nullopt;
+  std::string_view rest = body_of(frame);
+  const auto take = [&rest] {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::string_view field = rest.substr(0, comma);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    return field;
+  };
+  if (rest.ends_with(',')) return std::nullopt;
+  const std::string_view name = take();
+  const auto* const form = std::ranges::find_if(kForms, [&](const LineForm& one) { return one.name == name; });
+  if (form == std::end(kForms)) return std::nullopt;
+  bool is_good = true;
+  const auto number = [&] {
+    const auto value = signed_number(take());
+    is_good = is_good && value;
+    return value.value_or(0);
+  };
+  Reading reading;
+  for (const auto& [member, unit] : form->parts) {
+    if (member == nullptr) continue;
+    for (double& value : (reading.*member).emplace()) value = number() * unit;
+  }
+  if (form->name == "VNIMU") {
+    reading.temperature_C = number();
+    reading.pressure_Pa = number() * kLineKilopascal_Pa;
+  }
+  return is_good && rest.empty() ? std::optional(reading) : std::nullopt;
 }
 
 std::vector<std::uint8_t> encode_line(const Reading& reading) {

@@ -2,8 +2,8 @@
 #include "protocols/water_linked.h"
 
 #include <charconv>
-#include <initializer_list>
-#include <span>
+#include <charconv>
+#include <concepts>
 #include <string>
 #include <utility>
 
@@ -30,22 +30,6 @@ std::optional<std::string_view> body_text(Bytes frame, FrameId line) {
   return text.substr(kNameLength + 1, star - kNameLength - 1);
 }
 
-/// Reads `fields` into `values` in their order; false when one is no number.
-bool read_numbers(std::span<const std::string_view> fields,
-                  std::initializer_list<std::pair<std::size_t, double*>> to) {
-  for (const auto& [index, value] : to) {
-    const auto number = signed_number(fields[index]);
-    if (!number) return false;
-    *value = *number;
-  }
-  return true;
-}
-
-bool read_valid(std::string_view field, bool& valid) {
-  valid = field == "y";
-  return valid || field == "n";
-}
-
 std::optional<std::array<double, 9>> read_covariance(std::string_view text) {
   std::array<double, 9> covariance{};
   for (std::size_t i = 0; i < covariance.size(); ++i) {
@@ -58,6 +42,54 @@ std::optional<std::array<double, 9>> read_covariance(std::string_view text) {
   }
   return covariance;
 }
+
+/// The fields of a line, one after the other. What is no number where one should be refuses the line.
+class Fields {
+ public:
+  explicit Fields(std::string_view text) : rest_(text) {}
+  template <class... Values>
+  void operator()(Values&... values) {
+    (read(values), ...);
+  }
+  /// Whether all fields were read and could be what they should be.
+  [[nodiscard]] bool are_good() const { return is_good_ && is_over_; }
+
+ private:
+  std::string_view take() {
+    is_good_ = is_good_ && !is_over_;
+    const std::size_t comma = rest_.find(',');
+    const std::string_view field = rest_.substr(0, comma);
+    is_over_ = comma == std::string_view::npos;
+    rest_.remove_prefix(is_over_ ? rest_.size() : comma + 1);
+    return field;
+  }
+  template <class T>
+  void keep(T& value, const std::optional<T>& read) {
+    is_good_ = is_good_ && read;
+    value = read.value_or(T{});
+  }
+  void read(double& value) { keep(value, signed_number(take())); }
+  void read(std::array<double, 3>& values) {
+    for (double& value : values) read(value);
+  }
+  template <std::integral T>
+  void read(T& value) {
+    keep(value, integer<T>(take()));
+  }
+  void read(bool& valid) {
+    const std::string_view field = take();
+    valid = field == "y";
+    is_good_ = is_good_ && (valid || field == "n");
+  }
+  void read(std::optional<std::int64_t>& value) { read(value.emplace()); }
+  void read(std::optional<std::array<double, 9>>& covariance) {
+    covariance = read_covariance(take());
+    is_good_ = is_good_ && covariance;
+  }
+
+  std::string_view rest_;
+  bool is_good_ = true, is_over_ = false;
+};
 
 void append_field(std::string& line, double value, int decimals) {
   line += ',';
@@ -132,45 +164,9 @@ std::optional<Velocity> decode_json_velocity(const samples_line::Object& object)
   return valid && number.fields.all_good() ? std::optional(v) : std::nullopt;
 }
 
-std::optional<Velocity> decode_new(std::string_view text) {
-  const auto f = split_exactly<11>(text);
-  if (!f) return std::nullopt;
-  Velocity v;
-  v.covariance_m2_s2 = read_covariance((*f)[6]);
-  v.valid_at_us = integer<std::int64_t>((*f)[7]);
-  v.transmitted_at_us = integer<std::int64_t>((*f)[8]);
-  const auto status = integer<std::uint32_t>((*f)[10]);
-  if (!v.covariance_m2_s2 || !v.valid_at_us || !v.transmitted_at_us || !status || !read_valid((*f)[3], v.valid)) {
-    return std::nullopt;
-  }
-  v.status = *status;
-  if (!read_numbers(*f, {{0, &v.velocity_m_s[0]},
-                         {1, &v.velocity_m_s[1]},
-                         {2, &v.velocity_m_s[2]},
-                         {4, &v.altitude_m},
-                         {5, &v.figure_of_merit_m_s},
-                         {9, &v.since_last_ms}})) {
-    return std::nullopt;
-  }
-  return v;
-}
-
-std::optional<Velocity> decode_old(std::string_view text) {
-  const auto f = split_exactly<8>(text);
-  if (!f) return std::nullopt;
-  Velocity v;
-  const auto status = integer<std::uint32_t>((*f)[7]);
-  if (!status || !read_valid((*f)[6], v.valid)) return std::nullopt;
-  v.status = *status;
-  if (!read_numbers(*f, {{0, &v.since_last_ms},
-                         {1, &v.velocity_m_s[0]},
-                         {2, &v.velocity_m_s[1]},
-                         {3, &v.velocity_m_s[2]},
-                         {4, &v.figure_of_merit_m_s},
-                         {5, &v.altitude_m}})) {
-    return std::nullopt;
-  }
-  return v;
+template <class Content>
+std::optional<Content> if_good(const Fields& fields, const Content& content) {
+  return fields.are_good() ? std::optional(content) : std::nullopt;
 }
 
 }  // namespace
@@ -205,9 +201,18 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
 
 std::optional<Velocity> decode_velocity(Bytes frame) {
   if (const auto object = samples_line::Object::parse(frame, true)) return decode_json_velocity(*object);
-  if (const auto text = body_text(frame, kVelocity)) return decode_new(*text);
-  if (const auto text = body_text(frame, kVelocityOld)) return decode_old(*text);
-  return std::nullopt;
+  Velocity v;
+  if (const auto text = body_text(frame, kVelocity)) {
+    Fields fields(*text);
+    fields(v.velocity_m_s, v.valid, v.altitude_m, v.figure_of_merit_m_s, v.covariance_m2_s2, v.valid_at_us,
+           v.transmitted_at_us, v.since_last_ms, v.status);
+    return if_good(fields, v);
+  }
+  const auto text = body_text(frame, kVelocityOld);
+  if (!text) return std::nullopt;
+  Fields fields(*text);
+  fields(v.since_last_ms, v.velocity_m_s, v.figure_of_merit_m_s, v.altitude_m, v.valid, v.status);
+  return if_good(fields, v);
 }
 
 std::vector<std::uint8_t> encode(const Velocity& v) {
@@ -228,16 +233,11 @@ std::vector<std::uint8_t> encode(const Velocity& v) {
 
 std::optional<Transducer> decode_transducer(Bytes frame) {
   const auto text = body_text(frame, kTransducer);
-  const auto f = text ? split_exactly<5>(*text) : std::nullopt;
-  if (!f) return std::nullopt;
+  if (!text) return std::nullopt;
   Transducer t;
-  const auto number = integer<std::uint8_t>((*f)[0]);
-  if (!number ||
-      !read_numbers(*f, {{1, &t.velocity_m_s}, {2, &t.distance_m}, {3, &t.signal_dBm}, {4, &t.noise_dBm}})) {
-    return std::nullopt;
-  }
-  t.number = *number;
-  return t;
+  Fields fields(*text);
+  fields(t.number, t.velocity_m_s, t.distance_m, t.signal_dBm, t.noise_dBm);
+  return if_good(fields, t);
 }
 
 std::vector<std::uint8_t> encode(const Transducer& t) {
@@ -262,22 +262,11 @@ std::optional<Position> decode_position(Bytes frame) {
     return number.fields.all_good() ? std::optional(p) : std::nullopt;
   }
   const auto text = body_text(frame, kPosition);
-  const auto f = text ? split_exactly<9>(*text) : std::nullopt;
-  if (!f) return std::nullopt;
+  if (!text) return std::nullopt;
   Position p;
-  const auto status = integer<std::uint32_t>((*f)[8]);
-  if (!status || !read_numbers(*f, {{0, &p.time_s},
-                                    {1, &p.position_m[0]},
-                                    {2, &p.position_m[1]},
-                                    {3, &p.position_m[2]},
-                                    {4, &p.std_m},
-                                    {5, &p.roll_deg},
-                                    {6, &p.pitch_deg},
-                                    {7, &p.yaw_deg}})) {
-    return std::nullopt;
-  }
-  p.status = *status;
-  return p;
+  Fields fields(*text);
+  fields(p.time_s, p.position_m, p.std_m, p.roll_deg, p.pitch_deg, p.yaw_deg, p.status);
+  return if_good(fields, p);
 }
 
 std::vector<std::uint8_t> encode_line(std::string_view body) {

@@ -16,5 +16,7 @@ inline constexpr double kOutputsLatency_s = 0.005;
 /// us; a field is empty where there is no such output: "$PNCAO,1500,1620,1500,1500,,,,*52". With the text of
 /// share/devices/actuator-outputs.toml, its description: a capture has no place for one.
 [[nodiscard]] PortSettings outputs_port();
+/// Text of that file.
+[[nodiscard]] std::string_view outputs_description();
 
 }  // namespace navcal::config

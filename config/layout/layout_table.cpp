@@ -25,7 +25,7 @@ std::string name_of_table(const Node& table) {
 }  // namespace
 
 LayoutTable::LayoutTable(const Node& table, Layout& layout, std::vector<Problem>& problems)
-    : table_(table), layout_(layout), name_(name_of_table(table)), reader_(table, problems) {
+    : table_(table), layout_(layout), problems_(problems), name_(name_of_table(table)), reader_(table, problems) {
   if (auto source = reader_.text("source")) layout_.sources.push_back({name_, std::move(*source)});
 }
 
@@ -130,7 +130,7 @@ void LayoutTable::list_or_one(std::string_view key, std::vector<double>& values,
     reader_.complain(key, fmt::format("{} numbers, but {} of x_m", values.size(), count));
 }
 
-void LayoutTable::matrix(std::string_view key, LayoutMatrix& values, const Bounds& bounds) {
+void LayoutTable::matrix(std::string_view key, LayoutMatrix& values, const Bounds& bounds, bool) {
   const auto* given =
       values_of(key, fmt::format("a diagonal of 6 numbers, or 36 row by row ({})", of_bounds(bounds)));
   if (given != nullptr && given->size() != 6 && given->size() != 36) {
@@ -141,7 +141,7 @@ void LayoutTable::matrix(std::string_view key, LayoutMatrix& values, const Bound
   uncertainty(key, bounds, values.size());
 }
 
-void LayoutTable::direction(std::string_view key, LayoutVector& value) {
+void LayoutTable::direction(std::string_view key, LayoutVector& value, bool) {
   numbers(key, value, {-1000, 1000});
   if (!(std::hypot(value[0], value[1], value[2]) > 1e-9)) {
     reader_.complain(key, "has no direction: all its numbers are zero");
@@ -161,8 +161,8 @@ void LayoutTable::limits(std::string_view key, double& low, double& high, const 
 }
 
 void LayoutTable::strips(LayoutStrips& strips) {
-  constexpr Bounds kPlace{-100, 100, "m"}, kSize{0, 100, "m"};
-  list("x_m", strips.x_m, kPlace);
+  constexpr Bounds kAlong{-100, 100, "m"}, kSize{0, 100, "m"};
+  list("x_m", strips.x_m, kAlong);
   const std::size_t count = strips.x_m.size();
   list_or_one("length_m", strips.length_m, count, kSize);
   list_or_one("width_m", strips.width_m, count, kSize);
@@ -181,6 +181,29 @@ const Node* LayoutTable::below(std::string_view key) {
   if (!node->is_list && std::holds_alternative<Table>(node->value)) return node;
   reader_.complain(key, fmt::format("a table [{}] is expected", node->name));
   return nullptr;
+}
+
+void LayoutTable::read_identity(std::string& name, std::string& channel, bool needs_name) {
+  if (auto given = reader_.text("name")) name = std::move(*given);
+  bool is_taken = false;
+  for_each_kind(layout_, [&](std::string_view, const auto& list) {
+    for (const auto& actuator : list) is_taken = is_taken || actuator.name == name;
+  });
+  if (!name.empty() && is_taken)
+    reader_.complain("name", fmt::format("\"{}\" is already the name of another actuator", name));
+  if (auto given = reader_.text("channel")) channel = std::move(*given);
+  if (needs_name) reader_.require("name", "a name of its own, such as \"port\"");
+}
+
+void LayoutTable::command(LayoutThruster& thruster) {
+  const auto given = reader_.choice("command", {"rpm", "percent", "us"});
+  reader_.require("command", "unit of the command: rpm, percent or us");
+  const auto found = std::find_if(kCommandUnits.begin(), kCommandUnits.end(),
+                                  [&](const CommandUnitRow& row) { return row.name == given; });
+  const CommandUnitRow& row = found != kCommandUnits.end() ? *found : kCommandUnits.front();
+  thruster.unit = row.unit;
+  thruster.low = row.low;
+  thruster.high = row.high;
 }
 
 }  // namespace navcal::config::layout

@@ -7,10 +7,13 @@
 
 #include "base/angles.h"
 #include "config/layout/layout_file.h"
+#include "config/layout/members.h"
 #include "config/value.h"
 
 namespace navcal::config {
 namespace {
+
+using layout::Bounds;
 
 /// Degrees that convert back to the same radians, where there are any.
 double exact_degrees(double rad) {
@@ -26,6 +29,7 @@ double exact_degrees(double rad) {
 /// Writes one table after the other; errors of numbers and sources behind the table that they belong to.
 class LayoutText {
  public:
+  static constexpr bool kReads = false;
   explicit LayoutText(const Layout& layout) : layout_(layout) {}
 
   /// `name` as the reader names the table: "thruster[2]".
@@ -37,22 +41,59 @@ class LayoutText {
     }
   }
   void line(std::string_view key, std::string_view value) { out_ += fmt::format("{} = {}\n", key, value); }
-  void number(std::string_view key, double value) {
+  void text(std::string_view key, const std::string& text) { line(key, to_toml_text(text)); }
+  void number(std::string_view key, double value, const Bounds& = {}) {
     line(key, to_toml_text(value));
     uncertainty(key);
   }
-  void angle(std::string_view key, double rad) { number(key, exact_degrees(rad)); }
+  void angle(std::string_view key, double rad, const Bounds&) { number(key, exact_degrees(rad)); }
   template <class Values>
-  void numbers(std::string_view key, const Values& values) {
+  void numbers(std::string_view key, const Values& values, const Bounds& = {}) {
     line(key, fmt::format("[{}]", fmt::join(values, ", ")));
     uncertainty(key);
   }
-  /// What a sound actuator has is left out.
-  void heard(const LayoutHeard& heard) {
-    if (heard.scale != 1) number("command_scale", heard.scale);
-    if (heard.offset != 0) number("command_offset", heard.offset);
+  void list(std::string_view key, const std::vector<double>& values, const Bounds&) {
+    if (!values.empty()) numbers(key, values);
   }
-  void matrix(std::string_view key, const LayoutMatrix& values) {
+  void direction(std::string_view key, const LayoutVector& value, bool = false) { numbers(key, value); }
+  void limits(std::string_view key, double low, double high, const Bounds&) {
+    numbers(key, std::array{low, high});
+  }
+  // Left out where they have their usual value.
+  void number_unless(double usual, std::string_view key, double value, const Bounds&) {
+    if (value != usual) number(key, value);
+  }
+  void angle_unless(double usual, std::string_view key, double rad, const Bounds& bounds) {
+    if (rad != usual) angle(key, rad, bounds);
+  }
+  template <class Values>
+  void numbers_unless(const Values& usual, std::string_view key, const Values& values, const Bounds&) {
+    if (values != usual) numbers(key, values);
+  }
+  void identity(const auto& actuator, std::string_view) {
+    text("name", actuator.name);
+    if (!actuator.channel.empty()) text("channel", actuator.channel);
+  }
+  /// And its limits.
+  void command(const LayoutThruster& thruster) {
+    text("command", std::string(layout::row_of(thruster.unit).name));
+    numbers("limits", std::array{thruster.low, thruster.high});
+  }
+  void hand(bool is_left) { line("hand", is_left ? "\"left\"" : "\"right\""); }
+  void either(std::string_view, bool is_first, auto first, auto second) { is_first ? first() : second(); }
+  void part(std::string_view key, bool is_there, auto members) {
+    if (!is_there) return;
+    const std::string name = fmt::format("{}.{}", name_, key);
+    table(fmt::format("[{}]", name), name);
+    members(*this);
+    name_.resize(name_.size() - key.size() - 1);
+  }
+  template <class Part>
+  void part(std::string_view key, const std::optional<Part>& value, auto members) {
+    part(key, value.has_value(), [&](LayoutText& text) { members(text, *value); });
+  }
+  void require(std::string_view, std::string_view) {}
+  void matrix(std::string_view key, const LayoutMatrix& values, const Bounds&, bool = false) {
     std::vector<double> diagonal;
     for (std::size_t i = 0; i < 6; ++i) diagonal.push_back(values[7 * i]);
     bool is_diagonal = true;
@@ -105,149 +146,25 @@ void write_body(LayoutText& text, const LayoutBody& body) {
   text.numbers("size_m", body.size_m);
 }
 
-void write_added_mass(LayoutText& text, const LayoutAddedMass& added) {
-  text.table("[added_mass]", "added_mass");
-  text.matrix("matrix", added.matrix_kg);
-  if (added.spheroid) {
-    text.table("[added_mass.spheroid]", "added_mass.spheroid");
-    text.number("length_m", added.spheroid->length_m);
-    text.number("diameter_m", added.spheroid->diameter_m);
-  }
-  if (added.strips.x_m.empty()) return;
-  text.table("[added_mass.strips]", "added_mass.strips");
-  text.strips(added.strips);
-}
-
-void write_flow_axes(LayoutText& text, const LayoutFlowAxes& flow) {
-  text.table("[damping.flow_axes]", "damping.flow_axes");
-  text.numbers("lift_kg_m", flow.lift_kg_m);
-  text.numbers("drag_kg_m", flow.drag_kg_m);
-  text.number("side_kg_m", flow.side_kg_m);
-  text.number("roll_kg", flow.roll_kg);
-  text.numbers("pitch_kg", flow.pitch_kg);
-  text.number("yaw_kg", flow.yaw_kg);
-  text.angle("stall_deg", flow.stall_rad);
-}
-
-void write_damping(LayoutText& text, const LayoutDamping& damping) {
-  text.table("[damping]", "damping");
-  text.matrix("linear", damping.linear);
-  text.matrix("quadratic", damping.quadratic);
-  text.matrix("lift", damping.lift);
-  if (damping.factors != LayoutDamping{}.factors) text.numbers("factors", damping.factors);
-  if (damping.axial_area_m2 > 0) {
-    text.table("[damping.axial]", "damping.axial");
-    text.number("coefficient", damping.axial_coefficient);
-    text.number("area_m2", damping.axial_area_m2);
-  }
-  if (damping.body_lift_area_m2 > 0) {
-    text.table("[damping.body_lift]", "damping.body_lift");
-    text.number("slope_per_rad", damping.body_lift_slope_per_rad);
-    text.number("area_m2", damping.body_lift_area_m2);
-    text.number("at_m", damping.body_lift_at_m);
-  }
-  if (!damping.strips.x_m.empty()) {
-    text.table("[damping.cross_flow]", "damping.cross_flow");
-    text.number("coefficient", damping.cross_flow_coefficient);
-    text.strips(damping.strips);
-  }
-  if (damping.flow_axes) write_flow_axes(text, *damping.flow_axes);
-}
-
-std::string_view word_for(CommandUnit unit) {
-  switch (unit) {
-    case CommandUnit::rpm: return "rpm";
-    case CommandUnit::percent: return "percent";
-    case CommandUnit::microseconds: return "us";
-  }
-  return "";
-}
-
-void write_thruster(LayoutText& text, const LayoutThruster& thruster, std::size_t number) {
-  text.table("[[thruster]]", fmt::format("thruster[{}]", number));
-  text.line("name", to_toml_text(thruster.name));
-  if (!thruster.channel.empty()) text.line("channel", to_toml_text(thruster.channel));
-  text.numbers("place_m", thruster.place_m);
-  text.numbers("direction", thruster.direction);
-  text.line("command", to_toml_text(std::string(word_for(thruster.unit))));
-  text.numbers("limits", std::array{thruster.low, thruster.high});
-  if (thruster.diameter_m > 0) {
-    text.number("diameter_m", thruster.diameter_m);
-    text.numbers("KT", thruster.KT);
-    if (!thruster.KQ.empty()) text.numbers("KQ", thruster.KQ);
-  } else {
-    text.numbers("table_command", thruster.table_command);
-    text.numbers("table_force_N", thruster.table_force_N);
-    text.number("advance_loss_sqrtN_s_m", thruster.advance_loss_sqrtN_s_m);
-    text.number("torque_m", thruster.torque_m);
-  }
-  text.number("force_scale", thruster.force_scale);
-  text.number("reverse_efficiency", thruster.reverse_efficiency);
-  text.number("torque_share", thruster.torque_share);
-  text.line("hand", thruster.is_left_handed ? "\"left\"" : "\"right\"");
-  text.number("dead_band", thruster.dead_band);
-  text.number("lag_s", thruster.lag_s);
-  text.heard(thruster.heard);
-}
-
-void write_surface(LayoutText& text, const LayoutSurface& surface, std::size_t number) {
-  text.table("[[surface]]", fmt::format("surface[{}]", number));
-  text.line("name", to_toml_text(surface.name));
-  if (!surface.channel.empty()) text.line("channel", to_toml_text(surface.channel));
-  text.numbers("place_m", surface.place_m);
-  text.numbers("normal", surface.normal);
-  text.numbers("chord", surface.chord);
-  text.number("area_m2", surface.area_m2);
-  text.number("lift_slope_per_rad", surface.lift_slope_per_rad);
-  text.number("induced_drag", surface.induced_drag);
-  text.number("drag", surface.drag);
-  text.angle("stall_deg", surface.stall_rad);
-  text.number("lag_s", surface.lag_s);
-  text.angle("limit_deg", surface.limit_rad);
-  if (surface.dead_band_rad != 0) text.angle("dead_band_deg", surface.dead_band_rad);
-  if (surface.heard.scale != 1) text.number("command_scale", surface.heard.scale);
-  if (surface.heard.offset != 0) text.angle("command_offset_deg", surface.heard.offset);
-}
-
-void write_masses(LayoutText& text, const Layout& layout) {
-  for (std::size_t i = 0; i < layout.ballasts.size(); ++i) {
-    const LayoutBallast& ballast = layout.ballasts[i];
-    text.table("[[ballast]]", fmt::format("ballast[{}]", i + 1));
-    text.line("name", to_toml_text(ballast.name));
-    if (!ballast.channel.empty()) text.line("channel", to_toml_text(ballast.channel));
-    text.numbers("place_m", ballast.place_m);
-    text.numbers("range_N", std::array{ballast.low_N, ballast.high_N});
-    text.number("rate_N_s", ballast.rate_N_s);
-    text.heard(ballast.heard);
-  }
-  for (std::size_t i = 0; i < layout.moving_masses.size(); ++i) {
-    const LayoutMovingMass& mass = layout.moving_masses[i];
-    text.table("[[moving_mass]]", fmt::format("moving_mass[{}]", i + 1));
-    text.line("name", to_toml_text(mass.name));
-    if (!mass.channel.empty()) text.line("channel", to_toml_text(mass.channel));
-    text.number("mass_kg", mass.mass_kg);
-    text.numbers("place_m", mass.place_m);
-    text.numbers("axis", mass.axis);
-    text.numbers("range_m", std::array{mass.low_m, mass.high_m});
-    text.number("rate_m_s", mass.rate_m_s);
-    text.heard(mass.heard);
-  }
-}
-
 }  // namespace
 
-std::string layout_file(const Layout& layout) {
-  LayoutText text(layout);
+std::string layout_file(const Layout& vehicle) {
+  LayoutText text(vehicle);
   text.table("# Layout of a vehicle (docs/vehicles.md): navcal vehicle check FILE.", "");
-  text.line("name", to_toml_text(layout.name));
+  text.text("name", vehicle.name);
   text.table("[water]", "water");
-  text.number("density_kg_m3", layout.water_density_kg_m3);
-  write_body(text, layout.body);
-  write_added_mass(text, layout.added_mass);
-  write_damping(text, layout.damping);
-  for (std::size_t i = 0; i < layout.thrusters.size(); ++i) write_thruster(text, layout.thrusters[i], i + 1);
-  for (std::size_t i = 0; i < layout.surfaces.size(); ++i) write_surface(text, layout.surfaces[i], i + 1);
-  write_masses(text, layout);
+  text.number("density_kg_m3", vehicle.water_density_kg_m3);
+  write_body(text, vehicle.body);
+  text.table("[added_mass]", "added_mass");
+  layout::go_through(text, vehicle.added_mass);
+  text.table("[damping]", "damping");
+  layout::go_through(text, vehicle.damping);
+  layout::for_each_kind(vehicle, [&](std::string_view key, const auto& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      text.table(fmt::format("[[{}]]", key), fmt::format("{}[{}]", key, i + 1));
+      layout::go_through(text, list[i]);
+    }
+  });
   return text.take().substr(1);
 }
 

@@ -3,11 +3,13 @@
 
 #include <map>
 #include <memory>
-#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "record/export/csv_table.h"
 #include "record/export/export.h"
 #include "record/export/sensor_places.h"
+#include "record/export/topic_columns.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
 #include "record/log/log_utc.h"
@@ -21,18 +23,50 @@ namespace {
 constexpr std::uint64_t kCsvProgressEvery = 1024;
 constexpr std::size_t kFlushBytes = 64 << 10;
 
+/// Quoted where it must be (RFC 4180).
+void append_csv_text(std::string& out, std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    out += text;
+    return;
+  }
+  out += '"';
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  out += '"';
+}
+
 /// One file of the export.
 struct Output {
   Output(const std::filesystem::path& path, const Topic* topic) : file(path) {
-    if (topic != nullptr) table.emplace(*topic);
+    if (topic != nullptr) columns = topic_columns(*topic);
   }
+  void append_header() {
+    for (const TopicColumn& column : columns)
+      text.append(&column == &columns.front() ? "" : ",").append(column.title);
+    text += '\n';
+  }
+
+  /// The line of one message; a member that is absent or null is empty. False when it is not JSON.
+  [[nodiscard]] bool append_line(std::string_view json) {
+    const auto members = FlatJson::parse(json);
+    if (!members) return false;
+    for (const TopicColumn& column : columns) {
+      if (&column != &columns.front()) text += ',';
+      append_csv_text(text, members->get(column.member));
+    }
+    text += '\n';
+    return true;
+  }
+
   void flush_if(std::size_t at_least) {
     if (text.size() < at_least) return;
     file.write(text);
     text.clear();
   }
   WholeFile file;
-  std::optional<CsvTable> table;  ///< none: raw bytes, or JSON as a whole
+  std::vector<TopicColumn> columns;  ///< none: raw bytes, or JSON as a whole
   std::string text;
 };
 
@@ -68,10 +102,10 @@ class Exporter {
       return output.flush_if(kFlushBytes);
     }
     const std::string_view data = utc_.on_scale(message, log_);
-    if (output.table) {
+    if (!output.columns.empty()) {
       const bool is_sensor = channel.topic == kSensorTopic;
       const std::string placed = is_sensor ? places_.placed(data) : std::string{};
-      if (!output.table->append_line(output.text, is_sensor ? placed : data)) ++unreadable_;
+      if (!output.append_line(is_sensor ? placed : data)) ++unreadable_;
     } else {
       append_seconds(output.text,
                      utc_.mapping().to_utc(static_cast<std::int64_t>(message.log_time_ns) - log_.log_offset_ns()));
@@ -113,7 +147,7 @@ class Exporter {
     const Topic* const topic = listed_topic(channel.topic);
     output = std::make_unique<Output>(folder_ / (table_name(channel.topic) + ".csv"), topic);
     if (topic != nullptr) {
-      output->text = output->table->header();
+      output->append_header();
     } else {
       output->text = channel.raw ? "time_s,monotonic_s,direction,bytes_hex\n" : "time_s,json\n";
     }

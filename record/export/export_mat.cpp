@@ -1,16 +1,125 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <matio.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/locale/encoding_utf.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "record/export/export.h"
 #include "record/export/log_tables.h"
-#include "record/export/mat_file.h"
 
 namespace navcal::record {
 namespace {
+
+/// Temporary path for libraries that open files themselves. The file written at part() gets its name by commit();
+/// without commit() it is removed.
+class PartPath {
+ public:
+  explicit PartPath(std::filesystem::path path) : path_(std::move(path)), part_(path_.string() + ".part") {}
+  PartPath(const PartPath&) = delete;
+  PartPath& operator=(const PartPath&) = delete;
+  ~PartPath() {
+    if (!committed_) std::remove(part_.c_str());
+  }
+
+  /// The library has closed it. Throws std::system_error, which names the file.
+  void commit() {
+    if (std::rename(part_.c_str(), path_.c_str()) != 0) {
+      throw std::system_error(errno, std::system_category(), path_.string());
+    }
+    committed_ = true;
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const std::string& part() const { return part_; }
+
+ private:
+  std::filesystem::path path_;
+  std::string part_;
+  bool committed_ = false;
+};
+
+/// Its first words are what tells a MAT-file; without one of its own the library puts the date there.
+constexpr const char* kHeader = "MATLAB 5.0 MAT-file, written by navcal";
+constexpr std::streamoff kHeaderBytes = 128;
+
+/// Whether the lengths that stand before the variables are those of the file. (The library reads past a missing
+/// end.)
+bool is_as_long_as_it_says(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::streamoff end = kHeaderBytes;
+  std::array<std::uint32_t, 2> tag{};  // type and length, in this machine's order, as the library writes them
+  while (file.seekg(end) && file.read(reinterpret_cast<char*>(tag.data()), sizeof tag)) {
+    end += static_cast<std::streamoff>(sizeof tag) + tag[1];
+  }
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  return !error && static_cast<std::uintmax_t>(end) == size;
+}
+
+struct FreeMatVariable {
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using MatVariable = std::unique_ptr<matvar_t, FreeMatVariable>;
+
+/// A MAT-file (level 5, compressed) that is being written; throws std::system_error, which names the file. Appears
+/// under its name by commit().
+class MatFile {
+ public:
+  explicit MatFile(const std::filesystem::path& path) : path_(path) {
+    errno = 0;
+    file_.reset(Mat_CreateVer(path_.part().c_str(), kHeader, MAT_FT_MAT5));
+    if (!file_) fail();
+  }
+
+  void write(const MatVariable& variable) {
+    errno = 0;
+    if (Mat_VarWrite(file_.get(), variable.get(), MAT_COMPRESSION_ZLIB) != 0) fail();
+    written_.emplace_back(variable->name);
+  }
+
+  /// matio does not say when the disk took less than it was given: the file is read back before it gets its name.
+  void commit() {
+    errno = 0;
+    if (Mat_Close(file_.release()) != 0) fail();
+    // Its complaints would go to standard error; what counts is said below.
+    Mat_LogInitFunc("navcal", [](int, auto*) {});
+    file_.reset(Mat_Open(path_.part().c_str(), MAT_ACC_RDONLY));
+    for (const std::string& name : written_) {
+      errno = 0;
+      if (!file_) fail();
+      const MatVariable read(Mat_VarReadNext(file_.get()));
+      if (!read || name != read->name) fail();
+    }
+    file_.reset();
+    errno = 0;
+    if (!is_as_long_as_it_says(path_.part())) fail();
+    path_.commit();
+  }
+
+ private:
+  struct Close {
+    void operator()(mat_t* file) const { Mat_Close(file); }
+  };
+  [[noreturn]] void fail() const {
+    const int reason = errno != 0 ? errno : EIO;
+    throw std::system_error(reason, std::system_category(), path_.path().string());
+  }
+
+  PartPath path_;
+  std::unique_ptr<mat_t, Close> file_;
+  std::vector<std::string> written_;
+};
 
 /// A variable of a level-5 file has a length of 32 bits, and MATLAB takes it with a sign.
 constexpr std::uint64_t kMaxVariable = (1ULL << 31) - (1ULL << 20);

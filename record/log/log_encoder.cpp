@@ -7,16 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "record/json/battery_json.h"
-#include "record/json/command_json.h"
-#include "record/json/event_json.h"
 #include "record/json/json_object.h"
-#include "record/json/mapping_json.h"
-#include "record/json/navigation_json.h"
-#include "record/json/sample_json.h"
 #include "record/log/checksum.h"
-#include "record/log/log_payload.h"
-#include "record/log/log_topics.h"
 #include "record/log/mcap_format.h"
 #include "record/log/mcap_summary.h"
 
@@ -28,7 +20,6 @@ struct LogEncoder::State {
   std::string config_toml;
   McapSummary summary;
   std::vector<std::uint32_t> sequences;  // by channel
-  pipeline::UtcMapping mapping;
   std::int64_t log_offset_ns = 0;
   std::uint64_t file_bytes = 0;
 
@@ -58,15 +49,6 @@ struct LogEncoder::State {
     append_le(out, at);
     append_le(out, log_time(publish_ns));
     summary.add_message(channel, at);
-  }
-
-  /// `append(out)` writes one JSON object.
-  template <class Append>
-  void json_message(std::string& out, const MessageHead& head, Append&& append) {
-    const Appending counted(*this, out);
-    const RecordScope record(out, Opcode::message);
-    append_message_head(out, head.topic, head.time_ns, head.validity_ns);
-    append_payload(out, std::forward<Append>(append));
   }
 
   void append_metadata(std::string& out) {
@@ -149,13 +131,12 @@ void LogEncoder::begin(std::string& out, std::int64_t now_ns, const pipeline::Ut
   s.summary = {};
   s.sequences.assign(topic::kFirstRaw + s.ports.size(), 0);
   s.file_bytes = 0;
-  s.mapping = mapping;
   s.log_offset_ns = mapping.offset_ns;
   // Offsets in the metadata index count from the magic: it must be the first thing in the caller's buffer.
   std::string head;
   s.append_definitions(head);
   out += head;
-  s.json_message(out, {topic::kConfig, now_ns, now_ns}, [&](std::string& text) {
+  put(out, {topic::kConfig, now_ns, now_ns}, [&](std::string& text) {
     JsonObject json(text, "CONFIG");
     json.seconds("time", mapping.to_utc(now_ns));
     json.seconds("monotonic", now_ns);
@@ -177,48 +158,14 @@ void LogEncoder::raw(std::string& out, std::uint16_t port, Direction direction, 
   append_le(out, crc32c(std::string_view(out).substr(begin)));
 }
 
-void LogEncoder::sample(std::string& out, const instruments::Sample& sample) {
-  const MessageHead head = head_of(sample);
-  if (head.topic == 0) return;
-  state_->json_message(out, head,
-                       [&](std::string& text) { append_json(text, sample, state_->ports[sample.port].name); });
+void LogEncoder::put(std::string& out, const MessageHead& head, const AppendJson& append) {
+  const State::Appending counted(*state_, out);
+  const RecordScope record(out, Opcode::message);
+  state_->append_message_head(out, head.topic, head.time_ns, head.validity_ns);
+  append_payload(out, append);
 }
 
-void LogEncoder::navigation(std::string& out, const pipeline::NavigationSample& sample) {
-  state_->json_message(out, head_of(sample), [&](std::string& text) { append_json(text, sample); });
-}
-
-void LogEncoder::battery(std::string& out, const pipeline::BatterySample& sample) {
-  state_->json_message(out, head_of(sample),
-                       [&](std::string& text) { append_json(text, sample, state_->ports[sample.port].name); });
-}
-
-void LogEncoder::mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
-  state_->mapping = mapping;
-  state_->json_message(out, {topic::kTime, now_ns, now_ns},
-                       [&](std::string& text) { append_json(text, now_ns, mapping); });
-}
-
-void LogEncoder::event(std::string& out, std::int64_t now_ns, std::string_view severity, std::string_view name,
-                       std::string_view port, std::string_view message) {
-  state_->json_message(out, {topic::kEvent, now_ns, now_ns}, [&](std::string& text) {
-    append_event_json(text, state_->mapping, now_ns, severity, name, port, message);
-  });
-}
-
-void LogEncoder::health(std::string& out, std::int64_t now_ns, std::string_view json) {
-  state_->json_message(out, {topic::kHealth, now_ns, now_ns}, [&](std::string& text) { text += json; });
-}
-
-void LogEncoder::calib(std::string& out, std::int64_t now_ns, std::string_view json) {
-  state_->json_message(out, {topic::kCalib, now_ns, now_ns}, [&](std::string& text) { text += json; });
-}
-
-void LogEncoder::command(std::string& out, std::int64_t now_ns, std::string_view device,
-                         const control::OrderRecord& record) {
-  state_->json_message(out, head_of(record, now_ns),
-                       [&](std::string& text) { append_json(text, state_->mapping, now_ns, device, record); });
-}
+std::string_view LogEncoder::port_name(std::uint16_t port) const { return state_->ports[port].name; }
 
 void LogEncoder::finish(std::string& out, std::int64_t /*now_ns*/) {
   const std::uint64_t data_bytes = state_->file_bytes;

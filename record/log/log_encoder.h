@@ -7,12 +7,9 @@
 #include <string_view>
 
 #include "config/settings.h"
-#include "control/order.h"
-#include "instruments/samples.h"
-#include "pipeline/battery.h"
-#include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
 #include "protocols/frame.h"
+#include "record/log/log_messages.h"
 
 namespace navcal::record {
 
@@ -25,7 +22,7 @@ enum class Direction : std::uint8_t { received = 0, sent = 1 };
 /// Turns what happens into MCAP records (docs/log-format.md). Pure: appends bytes to a buffer, opens no file,
 /// reads no clock; the disk thread takes the buffer. One encoder serves one file after another. log_time =
 /// monotonic + one offset, fixed when the file is begun; publish_time = time of validity on that scale.
-class LogEncoder {
+class LogEncoder : public LogMessages<LogEncoder, std::string&> {
  public:
   /// `config_toml`: the configuration in force, stored in /config.
   LogEncoder(const config::Settings& settings, std::string config_toml);
@@ -35,19 +32,8 @@ class LogEncoder {
   void begin(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
   void raw(std::string& out, std::uint16_t port, Direction direction, std::int64_t time_ns,
            protocols::Bytes bytes);
-  void sample(std::string& out, const instruments::Sample& sample);
-  void navigation(std::string& out, const pipeline::NavigationSample& sample);
-  void battery(std::string& out, const pipeline::BatterySample& sample);
-  void mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
-  /// `severity`: "info", "warning", "error", "alarm"; `name`: a short key such as "port.lost"; `port` may be
-  /// empty.
-  void event(std::string& out, std::int64_t now_ns, std::string_view severity, std::string_view name,
-             std::string_view port, std::string_view message);
-  /// `json` is one object {...} as it goes to the status socket; "crc" is added.
-  void health(std::string& out, std::int64_t now_ns, std::string_view json);
-  void calib(std::string& out, std::int64_t now_ns, std::string_view json);
-  /// What became of an order to the motor card at port `device`.
-  void command(std::string& out, std::int64_t now_ns, std::string_view device, const control::OrderRecord& record);
+  void put(std::string& out, const MessageHead& head, const AppendJson& append);
+  [[nodiscard]] std::string_view port_name(std::uint16_t port) const;
   /// DataEnd, summary (schemas, channels, statistics), Footer, magic.
   void finish(std::string& out, std::int64_t now_ns);
 

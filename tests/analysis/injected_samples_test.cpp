@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "protocols/samples_line.h"
-#include "record/json/sample_json.h"
+#include "record/json/message_json.h"
 #include "tests/instruments/collector.h"
 
 namespace navcal::instruments {

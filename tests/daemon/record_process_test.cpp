@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "record/log/log_payload.h"
+#include "record/log/log_messages.h"
 #include "record/log/log_reader.h"
 #include "tests/daemon/daemon_process.h"
 #include "tests/support/process.h"

@@ -14,7 +14,7 @@
 #include "pipeline/pipeline.h"
 #include "protocols/imu_card.h"
 #include "record/json/calibration_json.h"
-#include "record/json/sample_json.h"
+#include "record/json/message_json.h"
 #include "record/recording.h"
 #include "tests/record/temporary_folder.h"
 

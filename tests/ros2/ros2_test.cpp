@@ -17,7 +17,7 @@
 #include "record/byte_source.h"
 #include "record/json/flat_json.h"
 #include "record/json/mapping_json.h"
-#include "record/log/log_payload.h"
+#include "record/log/log_messages.h"
 #include "record/log/log_reader.h"
 #include "tests/daemon/daemon_process.h"
 #include "tests/ros2/fast_cdr.h"

@@ -6,13 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "record/json/battery_json.h"
-#include "record/json/command_json.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
 #include "record/json/mapping_json.h"
-#include "record/json/navigation_json.h"
-#include "record/json/sample_json.h"
+#include "record/json/message_json.h"
 #include "record/log/log_topics.h"
 #include "tests/record/sample_log.h"
 
