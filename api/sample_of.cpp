@@ -88,6 +88,7 @@ Sample sample_of(const pipeline::NavigationSample& sample) {
                          .since_fix_s = {},
                          .since_fix_m = {},
                          .depth_m = estimate.depth_m,
+                         .depth_std_m = estimate.depth_std_m,
                          .heading_rad = estimate.heading_rad,
                          .heading_std_rad = {},
                          .pitch_rad = estimate.pitch_rad,

@@ -10,6 +10,8 @@ namespace {
 /// After such a pause the next reading is taken as it is.
 constexpr double kPause_s = 2;
 constexpr double kMostRateError_m_s = 1;
+/// Standard error of the rate between readings.
+constexpr double kRateStd_m_s = 0.1;
 
 }  // namespace
 
@@ -21,7 +23,7 @@ void DepthFilter::advance(double predicted_m_s, double duration_s) {
   if (depth_m_) *depth_m_ += sinking_m_s() * duration_s;
 }
 
-void DepthFilter::correct(double depth_m) {
+void DepthFilter::correct(double depth_m, std::optional<double> std_m) {
   if (!depth_m_ || since_s_ > kPause_s) {
     depth_m_ = depth_m;
   } else {
@@ -31,6 +33,12 @@ void DepthFilter::correct(double depth_m) {
                                  -kMostRateError_m_s, kMostRateError_m_s);
   }
   since_s_ = 0;
+  reading_std_m_ = std_m;
+}
+
+std::optional<double> DepthFilter::std_m() const {
+  if (!depth_m_ || !reading_std_m_) return std::nullopt;
+  return std::hypot(*reading_std_m_, kRateStd_m_s * since_s_);
 }
 
 }  // namespace navcal::nav

@@ -29,7 +29,7 @@ struct Estimate {
   std::optional<double> heading_rad;  ///< from true north, 0..2 pi
   double heading_std_rad = 0;
   std::optional<double> pitch_rad, roll_rad;
-  std::optional<double> depth_m;
+  std::optional<double> depth_m, depth_std_m;
   std::optional<double> speed_m_s;  ///< through the water, ahead
   SpeedSource speed_source = SpeedSource::none;
   std::uint64_t velocity_outliers = 0;                ///< measurements of a DVL that were passed over, so far

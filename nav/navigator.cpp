@@ -80,7 +80,7 @@ void Navigator::take(const RateReading& reading) {
     // Without a tilt the angles are zero.
     const double below_m =
         base::depth_below_origin_m(reading.depth_position_m, attitude_.roll_rad(), attitude_.pitch_rad());
-    depth_.correct(*reading.depth_m - below_m);
+    depth_.correct(*reading.depth_m - below_m, reading.depth_std_m);
   }
 }
 
@@ -243,6 +243,7 @@ Estimate Navigator::estimate() const {
     estimate.roll_rad = attitude_.roll_rad();
   }
   estimate.depth_m = depth_.depth_m();
+  estimate.depth_std_m = depth_.std_m();
   if (const auto speed_m_s = speed_through_water_m_s()) estimate.speed_m_s = speed_m_s;
   estimate.speed_source = source_;
   estimate.velocity_outliers = velocity_outliers();

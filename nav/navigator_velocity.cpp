@@ -71,7 +71,7 @@ void Navigator::take(const DepthReading& reading) {
   const double below_m =
       base::depth_below_origin_m(reading.position_m, attitude_.roll_rad(), attitude_.pitch_rad());
   const double sunk_m = depth_.sinking_m_s() * base::seconds(*time_ns_ - reading.time_ns);
-  depth_.correct(reading.depth_m - below_m + sunk_m);
+  depth_.correct(reading.depth_m - below_m + sunk_m, reading.std_m);
 }
 
 /// Corrects the way since the measurement before: the velocity that was held did not change with time, the true

@@ -14,7 +14,7 @@ namespace navcal::nav {
 struct RateReading {
   std::int64_t time_ns = 0;
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
-  std::optional<double> depth_m = std::nullopt;
+  std::optional<double> depth_m = std::nullopt, depth_std_m = std::nullopt;
   std::optional<Eigen::Vector3d> specific_force_m_s2 = std::nullopt;
   /// Places of the accelerometers and of the depth gauge, from the vehicle's origin.
   Eigen::Vector3d force_position_m = Eigen::Vector3d::Zero();
@@ -71,6 +71,7 @@ struct DepthReading {
   std::int64_t time_ns = 0;
   double depth_m = 0;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the gauge, from the vehicle's origin
+  std::optional<double> std_m = std::nullopt;
 };
 
 struct FixReading {

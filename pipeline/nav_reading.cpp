@@ -79,6 +79,12 @@ std::optional<double> depth_m(const instruments::DepthSample& gauge, const confi
   return (*gauge.pressure_Pa - settings.air_pressure_Pa) / (settings.water_density_kg_m3 * base::kGravity_m_s2);
 }
 
+std::optional<double> depth_std_m(const instruments::DepthSample& gauge,
+                                  const config::NavigationSettings& settings) {
+  if (gauge.depth_m || !gauge.pressure_std_Pa) return gauge.depth_std_m;
+  return *gauge.pressure_std_Pa / (settings.water_density_kg_m3 * base::kGravity_m_s2);
+}
+
 std::optional<nav::ShaftReading> shaft_reading(const instruments::Sample& sample,
                                                const instruments::MotorSample& motor) {
   if (!motor.rpm) return std::nullopt;

@@ -34,6 +34,9 @@ namespace navcal::pipeline {
 /// when it measured neither.
 [[nodiscard]] std::optional<double> depth_m(const instruments::DepthSample& gauge,
                                             const config::NavigationSettings& settings);
+/// Standard error that the gauge states of it; nullopt where it states none.
+[[nodiscard]] std::optional<double> depth_std_m(const instruments::DepthSample& gauge,
+                                                const config::NavigationSettings& settings);
 /// nullopt without a shaft speed.
 [[nodiscard]] std::optional<nav::ShaftReading> shaft_reading(const instruments::Sample& sample,
                                                              const instruments::MotorSample& motor);

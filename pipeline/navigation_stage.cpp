@@ -107,6 +107,7 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&corrected.value)) {
     if (corrected.port == ports_[Role::depth] && imu->depth_m) {
       depth_m_ = imu->depth_m;
+      depth_std_m_ = imu->depth_std_m;
       depth_position_m_ = positions_m_.at(corrected.port);
       surfacings_.depth(corrected.stamp.validity_ns, *imu->depth_m);
     }
@@ -161,6 +162,7 @@ void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample&
   if (!reading) return;
   if (calibrated && imu.yaw_rate_calibrated_rad_s) reading->rate_rad_s.z() = *imu.yaw_rate_calibrated_rad_s;
   reading->depth_m = depth_m_;
+  reading->depth_std_m = depth_std_m_;
   reading->depth_position_m = depth_position_m_;
   navigator.take(*reading);
 }
@@ -243,7 +245,8 @@ void NavigationStage::feed_dvl(const instruments::Sample& sample, const instrume
 void NavigationStage::feed_depth(const instruments::Sample& sample, const instruments::DepthSample& gauge) {
   const auto depth_now_m = depth_m(gauge, settings_);
   if (!depth_now_m) return;
-  const nav::DepthReading reading{sample.stamp.validity_ns, *depth_now_m, positions_m_.at(sample.port)};
+  const nav::DepthReading reading{sample.stamp.validity_ns, *depth_now_m, positions_m_.at(sample.port),
+                                  depth_std_m(gauge, settings_)};
   calibrated_.take(reading);
   uncalibrated_.take(reading);
   surfacings_.depth(sample.stamp.validity_ns, *depth_now_m);

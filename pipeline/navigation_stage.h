@@ -75,7 +75,7 @@ class NavigationStage {
   std::optional<std::int64_t> dvl_ns_;                          ///< newest sample of the DVL that serves
   std::optional<std::int64_t> inclinometer_ns_;                 ///< newest tilt of the compass
   std::vector<Eigen::Vector3d> positions_m_;                    ///< of each port's sensor
-  std::optional<double> depth_m_;                               ///< newest that is not used yet
+  std::optional<double> depth_m_, depth_std_m_;                 ///< newest that is not used yet
   Eigen::Vector3d depth_position_m_ = Eigen::Vector3d::Zero();  ///< of its gauge
   std::optional<Eigen::Vector2d> velocity_m_s_;                 ///< newest that is not used yet
   double velocity_std_m_s_ = 0;                                 ///< of velocity_m_s_, each axis

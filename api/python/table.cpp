@@ -78,6 +78,7 @@ struct Rows {
     table.put("since_fix_s", s.since_fix_s);
     table.put("since_fix_m", s.since_fix_m);
     table.put("depth_m", s.depth_m);
+    table.put("depth_std_m", s.depth_std_m);
     table.put("heading_rad", s.heading_rad);
     table.put("heading_std_rad", s.heading_std_rad);
     table.put("pitch_rad", s.pitch_rad);

@@ -148,6 +148,7 @@ void append_json(std::string& out, const pipeline::NavigationSample& sample) {
   json.number("since_fix_s", of_position(estimate, estimate.since_fix_s));
   json.number("since_fix_m", of_position(estimate, estimate.since_fix_m));
   json.number("depth_m", estimate.depth_m);
+  json.number("depth_std_m", estimate.depth_std_m);
   json.number("heading_rad", estimate.heading_rad);
   json.number("heading_std_rad", estimate.heading_rad ? std::optional(estimate.heading_std_rad) : std::nullopt);
   json.number("pitch_rad", estimate.pitch_rad);

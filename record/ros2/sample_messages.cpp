@@ -174,6 +174,7 @@ class Maker {
     variances[5] = variance_or(number("heading_std_rad"), kUnknown);
     auto& position = odometry.pose.pose.position;
     position.z = number("depth_m").value_or(0) * (is_ned ? 1 : -1);
+    variances[2] = variance_or(number("depth_std_m"), kUnknown);
     const auto lat = number("lat"), lon = number("lon");
     if (lat && lon) {
       const double lat_rad = *lat * base::kRadiansPerDegree, lon_rad = *lon * base::kRadiansPerDegree;

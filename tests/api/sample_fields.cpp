@@ -160,6 +160,7 @@ struct Members {
     put("since_fix_s", s.since_fix_s);
     put("since_fix_m", s.since_fix_m);
     put("depth_m", s.depth_m);
+    put("depth_std_m", s.depth_std_m);
     put("heading_rad", s.heading_rad);
     put("heading_std_rad", s.heading_std_rad);
     put("pitch_rad", s.pitch_rad);

@@ -57,5 +57,18 @@ TEST(DepthFilter, AfterAPauseTheGaugeIsBelieved) {
   EXPECT_EQ(*filter.depth_m(), 40);
 }
 
+TEST(DepthFilter, StatesTheErrorOfTheNewestReadingAndWhatCameSince) {
+  DepthFilter filter({});
+  EXPECT_FALSE(filter.std_m());
+  filter.correct(1);
+  EXPECT_FALSE(filter.std_m()) << "nothing is stated";
+  filter.correct(1, 0.03);
+  EXPECT_EQ(filter.std_m(), 0.03);
+  filter.advance(0, 0.4);
+  EXPECT_NEAR(*filter.std_m(), 0.05, 1e-12);
+  filter.correct(1, 0.03);
+  EXPECT_EQ(filter.std_m(), 0.03);
+}
+
 }  // namespace
 }  // namespace navcal::nav::test

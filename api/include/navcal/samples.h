@@ -175,6 +175,7 @@ struct NavigationSample {
   std::optional<double> since_fix_s;      ///< time since the last fix
   std::optional<double> since_fix_m;      ///< distance since the last fix
   std::optional<double> depth_m;          ///< below the surface
+  std::optional<double> depth_std_m;      ///< of depth_m, by what the gauge states
   std::optional<double> heading_rad;      ///< 0 to 2 pi, clockwise from true north
   std::optional<double> heading_std_rad;  ///< of heading_rad
   std::optional<double> pitch_rad;        ///< positive nose-up

@@ -153,7 +153,7 @@ TEST(SampleMessages, PressureRangeTemperatureAndBattery) {
 constexpr std::string_view kFirst = R"({"class":"NAV","device":"navigation","lat":60,"lon":5,"heading_rad":0})";
 constexpr std::string_view kSecond =
     R"({"class":"NAV","device":"navigation","lat":60.0009,"lon":5,"heading_rad":1.5707963267948966,"pitch_rad":0,)"
-    R"("roll_rad":0,"depth_m":3,"north_std_m":2,"east_std_m":4,"heading_std_rad":0.5,"velocity_m_s":[1,0,0]})";
+    R"("roll_rad":0,"depth_m":3,"depth_std_m":0.2,"north_std_m":2,"east_std_m":4,"heading_std_rad":0.5,"velocity_m_s":[1,0,0]})";
 constexpr std::string_view kNorth = R"({"class":"HEALTH","earth_field":{"declination_source":"model"}})";
 
 TEST(SampleMessages, OdometryStartsAtTheFirstPosition) {
@@ -170,6 +170,7 @@ TEST(SampleMessages, OdometryStartsAtTheFirstPosition) {
   EXPECT_NEAR(odometry->pose.pose.orientation.w, 1, 1e-12) << "to the east";
   EXPECT_EQ(odometry->pose.covariance[0], 16) << "east";
   EXPECT_EQ(odometry->pose.covariance[7], 4);
+  EXPECT_NEAR(odometry->pose.covariance[14], 0.04, 1e-12);
   EXPECT_EQ(odometry->pose.covariance[35], 0.25);
   EXPECT_NEAR(odometry->twist.twist.linear.x, 0, 1e-12);
   EXPECT_NEAR(odometry->twist.twist.linear.y, 1, 1e-12) << "to port";
