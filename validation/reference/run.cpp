@@ -6,14 +6,27 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "protocols/motor_card.h"
 #include "validation/reference/card.h"
 #include "validation/reference/compass.h"
 #include "validation/reference/receiver.h"
-#include "validation/reference/world.h"
 
 namespace navcal::reference {
+
+World::World(Vehicle vehicle, double memory_s, double surface_C)
+    : History(vehicle.snapshot(), Vehicle::kStep_s, memory_s, surface_C), vehicle_(std::move(vehicle)) {}
+
+void World::advance(double to_s) {
+  const double begin_s = vehicle_.time_s();
+  const auto steps = std::llround((to_s - begin_s) / Vehicle::kStep_s);
+  for (long long i = 1; i <= steps; ++i) {
+    vehicle_.advance(begin_s + static_cast<double>(i) * Vehicle::kStep_s);
+    remember(vehicle_.snapshot());
+  }
+}
+
 namespace {
 
 namespace motor_wire = protocols::motor_card;
