@@ -36,7 +36,8 @@ EffectSubset watched_effects(const Library& library) {
   EffectSubset watched;
   for (std::size_t effect = 0; effect < library.size(); ++effect) {
     const std::string_view name = library[effect].name;
-    if (!library.holds(effect) || name == kWaterCurrent || std::find(kSlow.begin(), kSlow.end(), name) != kSlow.end())
+    if (!library.holds(effect) || name == kWaterCurrent ||
+        std::find(kSlow.begin(), kSlow.end(), name) != kSlow.end())
       continue;
     watched.push_back(effect);
   }
