@@ -1,14 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <exception>
 
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
-#include "cli/misspelling.h"
+#include "config/suggestion.h"
 #include "share/manual.h"
 
 namespace {
+
+const CLI::App* command_named(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->check_name(name)) return command;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : app.get_options([](const CLI::Option*) { return true; })) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Message for a command line with a command or an option that does not exist: its name and the nearest one
+/// that does. Empty when neither is the cause of the error.
+std::string misspelling(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const CLI::App* current = &app;
+  std::string called = app.get_name();
+  for (const std::string& argument : arguments) {
+    if (argument.starts_with("--")) {
+      const std::string name = argument.substr(0, argument.find('='));
+      if (name == "--" || current->get_option_no_throw(name) != nullptr) continue;
+      return fmt::format("{}: there is no option {}{} ({} --help)", called, name,
+                         navcal::config::suggestion(name, option_names(*current)), called);
+    }
+    if (argument.starts_with('-')) continue;
+    if (const CLI::App* const command = command_named(*current, argument)) {
+      current = command;
+      called += ' ' + command->get_name();
+    } else if (current->get_require_subcommand_min() > 0) {
+      return fmt::format("{}: there is no command {}{} ({} --help)", called, argument,
+                         navcal::config::suggestion(argument, command_names(*current)), called);
+    }
+  }
+  return {};
+}
 
 /// True when the last command of the line is one of a group and names no command in it.
 bool lacks_command(const CLI::App& app, const CLI::ParseError& error) {
@@ -42,7 +91,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (const std::string words = navcal::cli::misspelling(app, {argv + 1, argv + argc}); !words.empty()) {
+    if (const std::string words = misspelling(app, {argv + 1, argv + argc}); !words.empty()) {
       std::fprintf(stderr, "%s\n", words.c_str());
       return static_cast<int>(Exit::usage);
     }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +14,46 @@
 #include "runs/nominal_vehicle.h"
 
 namespace navcal::runs {
+
+/// Log density of Student's t with these degrees of freedom, zero mean and scale matrix; without the terms that
+/// depend on the degrees and the dimension alone. Few sessions leave the tails uncertain, so they are not
+/// Gaussian. `squared` is the squared Mahalanobis distance, `log_determinant` that of the scale matrix.
+[[nodiscard]] double log_student(double squared, double log_determinant, double dimension, double degrees);
+
+/// Evidence of hypotheses about one run, or about runs of one session together.
+class RunEvidence {
+ public:
+  RunEvidence(const NominalVehicle& vehicle, std::span<const Response> responses);
+
+  /// Log marginal likelihood of what the runs showed.
+  [[nodiscard]] double log_evidence(const Hypothesis& hypothesis);
+
+  /// Mean of each parameter over the runs less the nominal; NaN where no run shows it.
+  [[nodiscard]] const ParameterVector& deviations() const { return all_deviations_; }
+  /// Standard deviation of the above for a nominal vehicle.
+  [[nodiscard]] const ParameterVector& standard_deviations() const { return all_deviations_std_; }
+
+ private:
+  void take_parameters(std::span<const Response> responses);
+  void take_spectrum(std::span<const Response> responses);
+  [[nodiscard]] double of_parameters(const Prediction& prediction) const;
+  [[nodiscard]] double with_line(double height_dB) const;
+  [[nodiscard]] double of_spectrum(const Prediction& prediction);
+
+  const NominalVehicle& vehicle_;
+  double degrees_;
+  std::vector<Eigen::Index> shown_;  ///< parameters that the runs show
+  ParameterVector all_deviations_, all_deviations_std_;
+  Eigen::VectorXd deviations_;
+  Eigen::MatrixXd covariance_;
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> spectrum_factor_;
+  Eigen::VectorXd spectrum_;  ///< deviation of the spectrum, whitened
+  double spectrum_log_determinant_ = 0;
+  std::map<double, double> with_line_;
+};
+
+/// log(exp(a) + exp(b) + ...) of values that may be far below zero.
+[[nodiscard]] double log_sum(std::span<const double> logs);
 
 enum class Verdict {
   nominal,    ///< the vehicle is as the nominal runs show it

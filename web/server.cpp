@@ -46,20 +46,7 @@ class WebSocketSession final : public PeerLink, public std::enable_shared_from_t
     ++counters_.web_sockets_open;
     peer_ = endpoint.make_peer(*this, target);
     peer_->on_open();
-    co_await read_messages() {
-      boost::beast::flat_buffer buffer;
-      for (;;) {
-        const auto [error, n] = co_await stream_.async_read(buffer, kNoThrow);
-        if (error) co_return;
-        const std::string_view message(static_cast<const char*>(buffer.data().data()), buffer.size());
-        if (stream_.got_text()) {
-          peer_->on_text(message);
-        } else {
-          peer_->on_binary(message);
-        }
-        buffer.consume(buffer.size());
-      }
-    }
+    co_await read_messages();
     open_ = false;
     --counters_.web_sockets_open;
     peer_.reset();
@@ -97,7 +84,20 @@ class WebSocketSession final : public PeerLink, public std::enable_shared_from_t
   void drop() { boost::beast::get_lowest_layer(stream_).close(); }
 
  private:
-  boost::asio::awaitable<void> read_messages();
+  boost::asio::awaitable<void> read_messages() {
+    boost::beast::flat_buffer buffer;
+    for (;;) {
+      const auto [error, n] = co_await stream_.async_read(buffer, kNoThrow);
+      if (error) co_return;
+      const std::string_view message(static_cast<const char*>(buffer.data().data()), buffer.size());
+      if (stream_.got_text()) {
+        peer_->on_text(message);
+      } else {
+        peer_->on_binary(message);
+      }
+      buffer.consume(buffer.size());
+    }
+  }
   boost::asio::awaitable<void> write_queue() {
     while (open_ && !queue_.empty()) {
       const Payload payload = queue_.front();

@@ -12,28 +12,6 @@
 
 namespace navcal::gap {
 
-/// Fin angles and shaft speed that act on the vehicle: the servo angles of the motor card's reports, behind the
-/// linkage that effects put between the servos and the fins.
-class LinkedActuators {
- public:
-  /// `rows` must outlive it. At least two rows.
-  LinkedActuators(std::span<const ActuatorTrack::Row> rows, sim::EffectSet& effects);
-
-  /// Index of the row at this time or just before. The first row holds before the beginning, the last one after
-  /// the end.
-  [[nodiscard]] std::size_t row_at(double time_s) const;
-  [[nodiscard]] sim::Controls of_row(std::size_t row) const;
-  /// Mean controls from `from_s` until `until_s`.
-  [[nodiscard]] sim::Controls mean(double from_s, double until_s) const;
-
- private:
-  [[nodiscard]] sim::Controls integral_until(double time_s) const;
-
-  std::span<const ActuatorTrack::Row> rows_;
-  std::vector<Eigen::Vector3d> fins_rad_;
-  std::vector<sim::Controls> integrals_;  ///< from the beginning until each row
-};
-
 /// Angles of the servos' shafts, propeller speed and motor current on a 10 ms grid, estimated from the motor
 /// card's reports. The reports come ten times a second with noise and resolution. Any coarser reconstruction of
 /// the fins adds noise to the predicted motion. Linear interpolation is 5 ms late for a servo that was ordered
@@ -65,6 +43,28 @@ class ActuatorTrack {
   FinOrders orders_;
   double report_s_;  ///< between two reports
   std::vector<Row> rows_;
+};
+
+/// Fin angles and shaft speed that act on the vehicle: the servo angles of the motor card's reports, behind the
+/// linkage that effects put between the servos and the fins.
+class LinkedActuators {
+ public:
+  /// `rows` must outlive it. At least two rows.
+  LinkedActuators(std::span<const ActuatorTrack::Row> rows, sim::EffectSet& effects);
+
+  /// Index of the row at this time or just before. The first row holds before the beginning, the last one after
+  /// the end.
+  [[nodiscard]] std::size_t row_at(double time_s) const;
+  [[nodiscard]] sim::Controls of_row(std::size_t row) const;
+  /// Mean controls from `from_s` until `until_s`.
+  [[nodiscard]] sim::Controls mean(double from_s, double until_s) const;
+
+ private:
+  [[nodiscard]] sim::Controls integral_until(double time_s) const;
+
+  std::span<const ActuatorTrack::Row> rows_;
+  std::vector<Eigen::Vector3d> fins_rad_;
+  std::vector<sim::Controls> integrals_;  ///< from the beginning until each row
 };
 
 }  // namespace navcal::gap

@@ -16,7 +16,7 @@
 namespace navcal::gap {
 namespace {
 
-constexpr std::string_view kCurrent = "water_current";
+constexpr std::string_view kWaterCurrent = "water_current";
 /// Effects that build up over minutes. The biases of each window take up a drift of a gyro.
 constexpr std::array<std::string_view, 4> kSlow{"gyro_drift", "gyro_random_walk", "stalls", "magnetic_hysteresis"};
 
@@ -26,7 +26,7 @@ std::vector<Eigen::Index> window_nuisances(const Library& library) {
   std::vector<Eigen::Index> columns;
   for (Eigen::Index j = 0; j < Library::kBiases; ++j) columns.push_back(j);
   for (std::size_t effect = 0; effect < library.size(); ++effect) {
-    if (library[effect].name != kCurrent) continue;
+    if (library[effect].name != kWaterCurrent) continue;
     for (Eigen::Index k = 0; k < library.count(effect); ++k) columns.push_back(library.first(effect) + k);
   }
   return columns;
@@ -36,7 +36,8 @@ EffectSubset watched_effects(const Library& library) {
   EffectSubset watched;
   for (std::size_t effect = 0; effect < library.size(); ++effect) {
     const std::string_view name = library[effect].name;
-    if (!library.holds(effect) || name == kCurrent || std::find(kSlow.begin(), kSlow.end(), name) != kSlow.end())
+    if (!library.holds(effect) || name == kWaterCurrent ||
+        std::find(kSlow.begin(), kSlow.end(), name) != kSlow.end())
       continue;
     watched.push_back(effect);
   }

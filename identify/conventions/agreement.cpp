@@ -81,139 +81,14 @@ class Relations {
   Relations(const RecordedMotion& motion) : motion_(motion), grid_(motion, Channel::bottom_x) {}
 
   void kinematics() {
-    for (std::size_t k = 0; k + kWindow < grid_.rows; k += kWindow) window(std::size_t begin, std::size_t end) {
-        Eigen::Vector3d turned = Eigen::Vector3d::Zero(), way = turned, force = turned, fixes = turned;
-        double second = 0;
-        for (std::size_t k = begin; k <= end; ++k) {
-          const double step_s = k == begin || k == end ? kGrid_s / 2 : kGrid_s;
-          const Eigen::Vector3d euler = grid_.euler(k), omega = grid_.rates[k];
-          const double roll = euler.x(), tilt = std::tan(euler.y());
-          if (std::abs(euler.y()) > std::numbers::pi / 2)
-            (*this)[Relation::pitch].add(euler.y());  // no such angle
-          if (std::abs(euler.y()) > kSteepestPitch_rad) return;
-          const double across = std::sin(roll) * omega.y() + std::cos(roll) * omega.z();
-          turned += step_s * Eigen::Vector3d(omega.x() + tilt * across,
-                                             std::cos(roll) * omega.y() - std::sin(roll) * omega.z(),
-                                             across / std::cos(euler.y()));
-          second += step_s * (omega.z() - grid_.at(Channel::second_yaw_rate, k));
-          const Eigen::Matrix3d world = world_from_body(euler);
-          Eigen::Vector3d speed = grid_.velocity[k];
-          const Eigen::Vector3d over(grid_.at(Channel::north_velocity, k), grid_.at(Channel::east_velocity, k), 0);
-          fixes += step_s * over;
-          // Without a Doppler log the vehicle is taken to go where its bow points.
-          way += step_s * (world * (grid_.has_doppler ? speed : Eigen::Vector3d(over.norm(), 0, 0)));
-          if (!grid_.has_doppler) speed.setZero();
-          force += step_s * (grid_.three(Channel::force_x, k) - omega.cross(omega.cross(motion_.imu_place_m)) +
-                             world.transpose() * Eigen::Vector3d(0, 0, base::kGravity_m_s2) - omega.cross(speed));
-        }
-        if (grid_.has_gyros) {
-          for (Eigen::Index i = 0; i < 3; ++i) {
-            const auto angle =
-                static_cast<Channel>(static_cast<std::size_t>(Channel::roll) + static_cast<std::size_t>(i));
-            axis(Relation::roll, i).add(base::wrapped(grid_.change(angle, begin, end) - turned[i]));
-          }
-          (*this)[Relation::second_gyro].add(second);
-        }
-        if (grid_.has_tilt) {
-          force -= (grid_.rates[end] - grid_.rates[begin]).cross(motion_.imu_place_m);
-          if (grid_.has_doppler) force -= grid_.velocity[end] - grid_.velocity[begin];
-          for (Eigen::Index i = 0; i < 3; ++i) axis(Relation::force_x, i).add(force[i] / kWindow_s);
-        }
-        const auto lever = [&](const Eigen::Vector3d& place_m) -> Eigen::Vector3d {
-          return world_from_body(grid_.euler(end)) * place_m - world_from_body(grid_.euler(begin)) * place_m;
-        };
-        if (grid_.has_doppler) {
-          (*this)[Relation::depth].add(grid_.change(Channel::depth, begin, end) - lever(motion_.imu_place_m).z() -
-                                       way.z());
-          (*this)[Relation::gauge_depth].add(grid_.change(Channel::gauge_depth, begin, end) -
-                                             lever(motion_.gauge_place_m).z() - way.z());
-        }
-        const double north = grid_.change(Channel::north, begin, end),
-                     east = grid_.change(Channel::east, begin, end);
-        (*this)[Relation::fix_north].add(north - fixes.x());
-        (*this)[Relation::fix_east].add(east - fixes.y());
-        const Eigen::Vector3d arm = lever(motion_.antenna_place_m);
-        const std::complex<double> measured(north - arm.x(), east - arm.y()), by_body(way.x(), way.y());
-        if (!std::isfinite(std::abs(measured)) || !std::isfinite(std::abs(by_body)) ||
-            !motion_.has(Channel::heading))
-          return;
-        ways_.push_back(measured);
-        reckoned_.push_back(by_body);
-      }
-    track() {
-      // measured = current + turn by_body: by least squares; a current only where velocity is not over the bottom.
-      std::complex<double> mean_way = 0, mean_reckoned = 0, product = 0;
-      const auto n = static_cast<double>(ways_.size());
-      if (!grid_.by_bottom) {
-        for (std::size_t i = 0; i < ways_.size(); ++i) {
-          mean_way += ways_[i] / n;
-          mean_reckoned += reckoned_[i] / n;
-        }
-      }
-      double length = 0;
-      for (std::size_t i = 0; i < ways_.size(); ++i) {
-        product += std::conj(reckoned_[i] - mean_reckoned) * (ways_[i] - mean_way);
-        length += std::norm(reckoned_[i] - mean_reckoned);
-      }
-      if (ways_.empty() || length <= 0) return;
-      const double turn = std::arg(product);
-      const auto by = std::polar(1.0, std::clamp(turn, -kMostTurn_rad, kMostTurn_rad));
-      double squares = 0;
-      for (std::size_t i = 0; i < ways_.size(); ++i) {
-        const auto left = ways_[i] - mean_way - by * (reckoned_[i] - mean_reckoned);
-        (*this)[Relation::north].add(left.real());
-        (*this)[Relation::east].add(left.imag());
-        squares += std::norm(left);
-      }
-      agreement_.track_turn_rad = turn;
-      agreement_.track_turn_std_rad = std::sqrt(squares / n / length);
-    }
+    for (std::size_t k = 0; k + kWindow < grid_.rows; k += kWindow) window(k, k + kWindow);
+    track();
   }
   void response(const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& actuators,
                 const ActuatorChange& change) {
     response_ = response_of(vehicle.layout());
-    for (std::size_t k = 0; k + response_ < grid_.rows; k += response_)
-      respond(const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& actuators, const ActuatorChange& change,
-              std::size_t begin) {
-        const bool has_velocity = grid_.velocity[begin].allFinite();
-        sim::Body body;
-        body.position_m = {0, 0, 10};  // away from the surface
-        body.euler_rad = grid_.euler(begin);
-        body.velocity << (has_velocity ? grid_.velocity[begin] : Eigen::Vector3d::Zero().eval()),
-            grid_.rates[begin];
-        if (!body.velocity.allFinite() || !body.euler_rad.allFinite() || !is_sane(body)) return;
-        const double step_s = kGrid_s / kModelSteps;
-        sim::Body driven = body, drifting = body;
-        const sim::ActuatorValues neutral = sim::ActuatorValues::neutral(vehicle.layout());
-        sim::ActuatorValues positions = neutral;
-        for (std::size_t i = 0; i < response_ * kModelSteps; ++i) {
-          actuators.mean(kGrid_s * static_cast<double>(begin) + step_s * static_cast<double>(i), step_s,
-                         positions);
-          change(positions);
-          driven = vehicle.step(driven, positions, step_s).body;
-          drifting = vehicle.step(drifting, neutral, step_s).body;
-          if (!is_sane(driven) || !is_sane(drifting)) return;
-        }
-        sim::Vector6 measured;
-        measured << (has_velocity ? grid_.velocity[begin + response_]
-                                  : Eigen::Vector3d::Constant(kUnknown).eval()),
-            grid_.rates[begin + response_];
-        left_.emplace_back(measured - drifting.velocity, driven.velocity - drifting.velocity);
-      }
-    respond_all() {
-      // measured - drifting = scale (driven - drifting): a layout may have its forces wrong, but not their signs.
-      constexpr double kMostScale = 2;
-      for (Eigen::Index i = 0; i < 6; ++i) {
-        double squares = 0, products = 0;
-        for (const auto& [measured, caused] : left_) {
-          if (!std::isfinite(measured[i])) continue;
-          squares += caused[i] * caused[i];
-          products += caused[i] * measured[i];
-        }
-        const double scale = squares > 0 ? std::clamp(products / squares, 0.0, kMostScale) : 0;
-        for (const auto& [measured, caused] : left_) axis(Relation::surge, i).add(measured[i] - scale * caused[i]);
-      }
-    }
+    for (std::size_t k = 0; k + response_ < grid_.rows; k += response_) respond(vehicle, actuators, change, k);
+    respond_all();
   }
   [[nodiscard]] Agreement agreement() const {
     Agreement out = agreement_;
@@ -226,11 +101,128 @@ class Relations {
   Gathered& axis(Relation first, Eigen::Index i) {
     return all_[static_cast<std::size_t>(first) + static_cast<std::size_t>(i)];
   }
-  void window(std::size_t begin, std::size_t end);
-  void track();
+  void window(std::size_t begin, std::size_t end) {
+    Eigen::Vector3d turned = Eigen::Vector3d::Zero(), way = turned, force = turned, fixes = turned;
+    double second = 0;
+    for (std::size_t k = begin; k <= end; ++k) {
+      const double step_s = k == begin || k == end ? kGrid_s / 2 : kGrid_s;
+      const Eigen::Vector3d euler = grid_.euler(k), omega = grid_.rates[k];
+      const double roll = euler.x(), tilt = std::tan(euler.y());
+      if (std::abs(euler.y()) > std::numbers::pi / 2) (*this)[Relation::pitch].add(euler.y());  // no such angle
+      if (std::abs(euler.y()) > kSteepestPitch_rad) return;
+      const double across = std::sin(roll) * omega.y() + std::cos(roll) * omega.z();
+      turned += step_s * Eigen::Vector3d(omega.x() + tilt * across,
+                                         std::cos(roll) * omega.y() - std::sin(roll) * omega.z(),
+                                         across / std::cos(euler.y()));
+      second += step_s * (omega.z() - grid_.at(Channel::second_yaw_rate, k));
+      const Eigen::Matrix3d world = world_from_body(euler);
+      Eigen::Vector3d speed = grid_.velocity[k];
+      const Eigen::Vector3d over(grid_.at(Channel::north_velocity, k), grid_.at(Channel::east_velocity, k), 0);
+      fixes += step_s * over;
+      // Without a Doppler log the vehicle is taken to go where its bow points.
+      way += step_s * (world * (grid_.has_doppler ? speed : Eigen::Vector3d(over.norm(), 0, 0)));
+      if (!grid_.has_doppler) speed.setZero();
+      force += step_s * (grid_.three(Channel::force_x, k) - omega.cross(omega.cross(motion_.imu_place_m)) +
+                         world.transpose() * Eigen::Vector3d(0, 0, base::kGravity_m_s2) - omega.cross(speed));
+    }
+    if (grid_.has_gyros) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const auto angle =
+            static_cast<Channel>(static_cast<std::size_t>(Channel::roll) + static_cast<std::size_t>(i));
+        axis(Relation::roll, i).add(base::wrapped(grid_.change(angle, begin, end) - turned[i]));
+      }
+      (*this)[Relation::second_gyro].add(second);
+    }
+    if (grid_.has_tilt) {
+      force -= (grid_.rates[end] - grid_.rates[begin]).cross(motion_.imu_place_m);
+      if (grid_.has_doppler) force -= grid_.velocity[end] - grid_.velocity[begin];
+      for (Eigen::Index i = 0; i < 3; ++i) axis(Relation::force_x, i).add(force[i] / kWindow_s);
+    }
+    const auto lever = [&](const Eigen::Vector3d& place_m) -> Eigen::Vector3d {
+      return world_from_body(grid_.euler(end)) * place_m - world_from_body(grid_.euler(begin)) * place_m;
+    };
+    if (grid_.has_doppler) {
+      (*this)[Relation::depth].add(grid_.change(Channel::depth, begin, end) - lever(motion_.imu_place_m).z() -
+                                   way.z());
+      (*this)[Relation::gauge_depth].add(grid_.change(Channel::gauge_depth, begin, end) -
+                                         lever(motion_.gauge_place_m).z() - way.z());
+    }
+    const double north = grid_.change(Channel::north, begin, end), east = grid_.change(Channel::east, begin, end);
+    (*this)[Relation::fix_north].add(north - fixes.x());
+    (*this)[Relation::fix_east].add(east - fixes.y());
+    const Eigen::Vector3d arm = lever(motion_.antenna_place_m);
+    const std::complex<double> measured(north - arm.x(), east - arm.y()), by_body(way.x(), way.y());
+    if (!std::isfinite(std::abs(measured)) || !std::isfinite(std::abs(by_body)) || !motion_.has(Channel::heading))
+      return;
+    ways_.push_back(measured);
+    reckoned_.push_back(by_body);
+  }
+  void track() {
+    // measured = current + turn by_body: by least squares; a current only where velocity is not over the bottom.
+    std::complex<double> mean_way = 0, mean_reckoned = 0, product = 0;
+    const auto n = static_cast<double>(ways_.size());
+    if (!grid_.by_bottom) {
+      for (std::size_t i = 0; i < ways_.size(); ++i) {
+        mean_way += ways_[i] / n;
+        mean_reckoned += reckoned_[i] / n;
+      }
+    }
+    double length = 0;
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      product += std::conj(reckoned_[i] - mean_reckoned) * (ways_[i] - mean_way);
+      length += std::norm(reckoned_[i] - mean_reckoned);
+    }
+    if (ways_.empty() || length <= 0) return;
+    const double turn = std::arg(product);
+    const auto by = std::polar(1.0, std::clamp(turn, -kMostTurn_rad, kMostTurn_rad));
+    double squares = 0;
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      const auto left = ways_[i] - mean_way - by * (reckoned_[i] - mean_reckoned);
+      (*this)[Relation::north].add(left.real());
+      (*this)[Relation::east].add(left.imag());
+      squares += std::norm(left);
+    }
+    agreement_.track_turn_rad = turn;
+    agreement_.track_turn_std_rad = std::sqrt(squares / n / length);
+  }
   void respond(const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& actuators,
-               const ActuatorChange& change, std::size_t begin);
-  void respond_all();
+               const ActuatorChange& change, std::size_t begin) {
+    const bool has_velocity = grid_.velocity[begin].allFinite();
+    sim::Body body;
+    body.position_m = {0, 0, 10};  // away from the surface
+    body.euler_rad = grid_.euler(begin);
+    body.velocity << (has_velocity ? grid_.velocity[begin] : Eigen::Vector3d::Zero().eval()), grid_.rates[begin];
+    if (!body.velocity.allFinite() || !body.euler_rad.allFinite() || !is_sane(body)) return;
+    const double step_s = kGrid_s / kModelSteps;
+    sim::Body driven = body, drifting = body;
+    const sim::ActuatorValues neutral = sim::ActuatorValues::neutral(vehicle.layout());
+    sim::ActuatorValues positions = neutral;
+    for (std::size_t i = 0; i < response_ * kModelSteps; ++i) {
+      actuators.mean(kGrid_s * static_cast<double>(begin) + step_s * static_cast<double>(i), step_s, positions);
+      change(positions);
+      driven = vehicle.step(driven, positions, step_s).body;
+      drifting = vehicle.step(drifting, neutral, step_s).body;
+      if (!is_sane(driven) || !is_sane(drifting)) return;
+    }
+    sim::Vector6 measured;
+    measured << (has_velocity ? grid_.velocity[begin + response_] : Eigen::Vector3d::Constant(kUnknown).eval()),
+        grid_.rates[begin + response_];
+    left_.emplace_back(measured - drifting.velocity, driven.velocity - drifting.velocity);
+  }
+  void respond_all() {
+    // measured - drifting = scale (driven - drifting): a layout may have its forces wrong, but not their signs.
+    constexpr double kMostScale = 2;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      double squares = 0, products = 0;
+      for (const auto& [measured, caused] : left_) {
+        if (!std::isfinite(measured[i])) continue;
+        squares += caused[i] * caused[i];
+        products += caused[i] * measured[i];
+      }
+      const double scale = squares > 0 ? std::clamp(products / squares, 0.0, kMostScale) : 0;
+      for (const auto& [measured, caused] : left_) axis(Relation::surge, i).add(measured[i] - scale * caused[i]);
+    }
+  }
 
   const RecordedMotion& motion_;
   GriddedMotion grid_;

@@ -50,67 +50,12 @@ class MotionGatherer final : public pipeline::Sink {
     time_ns_ = sample.stamp.validity_ns;
     std::visit(
         [&](const auto& value) {
-          if constexpr (requires { add(value); }) add(const instruments::ImuSample& sample) {
-              if (sample.over_range) return;
-              if (sample.rate_rad_s)
-                put3(Channel::rate_x, *sample.rate_rad_s,
-                     sample.rate_std_rad_s.value_or(model_.imu.gyro_noise_rad_s));
-              if (sample.yaw_rate_b_rad_s)
-                put(Channel::second_yaw_rate, *sample.yaw_rate_b_rad_s,
-                    sample.rate_std_rad_s.value_or(model_.imu.gyro_noise_rad_s));
-              if (sample.specific_force_m_s2)
-                put3(Channel::force_x, *sample.specific_force_m_s2,
-                     sample.specific_force_std_m_s2.value_or(model_.imu.force_noise_m_s2));
-              if (sample.depth_m)
-                put(Channel::depth, *sample.depth_m, sample.depth_std_m.value_or(model_.imu.depth_noise_m));
-            }
+          if constexpr (requires { add(value); }) add(value);
         },
         sample.value);
   }
 
-  [[nodiscard]] RecordedMotion take(std::int64_t begin_ns) {
-    RecordedMotion motion;
-    const auto place = [](const config::PortSettings& port) {
-      return Eigen::Vector3d(port.mounting.position_m[0], port.mounting.position_m[1],
-                             port.mounting.position_m[2]);
-    };
-    for (std::size_t c = 0; c < kChannels; ++c) {
-      const auto channel = static_cast<Channel>(c);
-      const auto most = std::max_element(sources_.begin(), sources_.end(), [&](const auto& a, const auto& b) {
-        return a[c].values.size() < b[c].values.size();
-      });
-      if (most == sources_.end() || (*most)[c].values.empty()) continue;
-      const bool is_inertial = channel <= Channel::force_z;
-      motion.channels[c] = readings_of((*most)[c], begin_ns, is_inertial ? kShortest_s : 0);
-      motion.duration_s = std::max(motion.duration_s, motion.channels[c].back().time_s);
-      const config::PortSettings& from = settings_.ports[static_cast<std::size_t>(most - sources_.begin())];
-      if (channel == Channel::force_x || channel == Channel::depth) motion.imu_place_m = place(from);
-      if (channel == Channel::gauge_depth) motion.gauge_place_m = place(from);
-      if (channel == Channel::bottom_x || channel == Channel::water_x) motion.doppler_place_m = place(from);
-      if (channel == Channel::north) motion.antenna_place_m = place(from);
-      if (channel == Channel::roll && from.protocol == protocols::Protocol::tcm2)
-        motion.tilt_lag_s = model_.compass.tilt_lag_s;
-    }
-    for (auto& [name, signal] : signals_) {
-      std::vector<std::size_t> order(signal.first.size());
-      for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-      std::stable_sort(order.begin(), order.end(),
-                       [&times = signal.first](std::size_t a, std::size_t b) { return times[a] < times[b]; });
-      Signal& out = motion.signals[name];
-      out.is_pulse = pulses_.contains(name);
-      for (const std::size_t i : order) {
-        out.times_s.push_back(static_cast<double>(signal.first[i] - begin_ns) * 1e-9);
-        out.values.push_back(signal.second[i]);
-      }
-    }
-    motion.fins_are_reported = fins_are_reported_;
-    if (motion.tilt_lag_s > 0 && field_level_uT_ > 0) motion.dip_rad = std::atan2(field_down_uT_, field_level_uT_);
-    motion.gyro_turn_on_rad_s = model_.imu.turn_on_bias_rad_s;
-    motion.heading_is_true = heading_is_true_;
-    if (field_.field().declination_source != pipeline::EarthField::Source::none)
-      motion.declination_rad = field_.field().declination_rad;
-    return motion;
-  }
+  [[nodiscard]] RecordedMotion take(std::int64_t begin_ns);
 
  private:
   void put(Channel channel, double value, double std) {
@@ -131,65 +76,11 @@ class MotionGatherer final : public pipeline::Sink {
     values.push_back(*value);
   }
 
-  void add(const instruments::CompassSample& sample) {
-    if (instruments::CompassError(sample.error).unknown) return;
-    const double tilt_std = sample.tilt_std_rad.value_or(model_.compass.tilt_reading_noise_rad());
-    // Tilt that was made of the accelerometers says what they say once more.
-    if (sample.roll_rad && !sample.tilt_by_accelerometers) put(Channel::roll, *sample.roll_rad, tilt_std);
-    if (sample.pitch_rad && !sample.tilt_by_accelerometers) put(Channel::pitch, *sample.pitch_rad, tilt_std);
-    if (sample.heading_rad) heading_is_true_ = sample.heading_is_true;
-    if (sample.heading_rad)
-      put(Channel::heading, *sample.heading_rad,
-          sample.heading_std_rad.value_or(model_.compass.heading_noise_rad()));
-    if (!sample.field_body_uT || !sample.roll_rad || !sample.pitch_rad) return;
-    const auto& [x, y, z] = *sample.field_body_uT;
-    const double sr = std::sin(*sample.roll_rad), cr = std::cos(*sample.roll_rad);
-    const double sp = std::sin(*sample.pitch_rad), cp = std::cos(*sample.pitch_rad);
-    field_level_uT_ += std::hypot(x * cp + y * sr * sp + z * cr * sp, y * cr - z * sr);
-    field_down_uT_ += -x * sp + y * sr * cp + z * cr * cp;
-  }
-  void add(const instruments::GpsSample& sample) {
-    using instruments::Fix;
-    if (!sample.latitude_rad || !sample.longitude_rad || (sample.fix != Fix::fix_2d && sample.fix != Fix::fix_3d))
-      return;
-    field_.take(sample);
-    fix_number_ = static_cast<double>(time_ns_ - last_fix_ns_) < kSightLost_s * 1e9 ? fix_number_ + 1 : 0;
-    last_fix_ns_ = time_ns_;
-    if (!plane_) plane_.emplace(*sample.latitude_rad, *sample.longitude_rad);
-    const auto [north_m, east_m] = plane_->position_m(*sample.latitude_rad, *sample.longitude_rad);
-    const double factor = model_.gps.noise_factor(fix_number_);
-    const double position_std = factor * sample.position_std_m.value_or(model_.gps.position_noise_m);
-    put(Channel::north, north_m, position_std);
-    put(Channel::east, east_m, position_std);
-    if (!sample.speed_m_s || !sample.course_rad) return;
-    const double velocity_std = factor * sample.velocity_std_m_s.value_or(model_.gps.velocity_noise_m_s);
-    put(Channel::north_velocity, *sample.speed_m_s * std::cos(*sample.course_rad), velocity_std);
-    put(Channel::east_velocity, *sample.speed_m_s * std::sin(*sample.course_rad), velocity_std);
-  }
-  void add(const instruments::MotorSample& sample) {
-    if (port().protocol == protocols::Protocol::motor_card) fins_are_reported_ = true;
-    signal("rpm", sample.rpm);
-    signal("rpm_commanded", sample.rpm_commanded);
-    for (std::size_t i = 0; i < 3; ++i) signal(fmt::format("fin_{}", i + 1), sample.fins_rad[i]);
-  }
-  void add(const instruments::DvlSample& sample) {
-    if (sample.frame != instruments::VelocityFrame::body) return;
-    if (sample.bottom_velocity_m_s)
-      put3(Channel::bottom_x, *sample.bottom_velocity_m_s,
-           sample.bottom_velocity_std_m_s.value_or(kDopplerNoise_m_s));
-    if (sample.water_velocity_m_s)
-      put3(Channel::water_x, *sample.water_velocity_m_s,
-           sample.water_velocity_std_m_s.value_or(kDopplerNoise_m_s));
-  }
-  void add(const instruments::DepthSample& sample) {
-    constexpr double kPa_per_m = kWater_kg_m3 * base::kGravity_m_s2;
-    if (sample.depth_m) {
-      put(Channel::gauge_depth, *sample.depth_m, sample.depth_std_m.value_or(kGaugeNoise_m));
-    } else if (sample.pressure_Pa) {
-      put(Channel::gauge_depth, (*sample.pressure_Pa - kAtmosphere_Pa) / kPa_per_m,
-          sample.pressure_std_Pa ? *sample.pressure_std_Pa / kPa_per_m : kGaugeNoise_m);
-    }
-  }
+  void add(const instruments::ImuSample& sample);
+  void add(const instruments::CompassSample& sample);
+  void add(const instruments::GpsSample& sample);
+  void add(const instruments::MotorSample& sample);
+  void add(const instruments::DvlSample& sample);
   void add(const instruments::DepthSample& sample);
   void add(const instruments::ScalarSample& sample) {
     const std::string name(sample.quantity.view());
@@ -215,6 +106,82 @@ class MotionGatherer final : public pipeline::Sink {
   double field_level_uT_ = 0, field_down_uT_ = 0;  ///< sums
 };
 
+void MotionGatherer::add(const instruments::ImuSample& sample) {
+  if (sample.over_range) return;
+  if (sample.rate_rad_s)
+    put3(Channel::rate_x, *sample.rate_rad_s, sample.rate_std_rad_s.value_or(model_.imu.gyro_noise_rad_s));
+  if (sample.yaw_rate_b_rad_s)
+    put(Channel::second_yaw_rate, *sample.yaw_rate_b_rad_s,
+        sample.rate_std_rad_s.value_or(model_.imu.gyro_noise_rad_s));
+  if (sample.specific_force_m_s2)
+    put3(Channel::force_x, *sample.specific_force_m_s2,
+         sample.specific_force_std_m_s2.value_or(model_.imu.force_noise_m_s2));
+  if (sample.depth_m) put(Channel::depth, *sample.depth_m, sample.depth_std_m.value_or(model_.imu.depth_noise_m));
+}
+
+void MotionGatherer::add(const instruments::CompassSample& sample) {
+  if (instruments::CompassError(sample.error).unknown) return;
+  const double tilt_std = sample.tilt_std_rad.value_or(model_.compass.tilt_reading_noise_rad());
+  // Tilt that was made of the accelerometers says what they say once more.
+  if (sample.roll_rad && !sample.tilt_by_accelerometers) put(Channel::roll, *sample.roll_rad, tilt_std);
+  if (sample.pitch_rad && !sample.tilt_by_accelerometers) put(Channel::pitch, *sample.pitch_rad, tilt_std);
+  if (sample.heading_rad) heading_is_true_ = sample.heading_is_true;
+  if (sample.heading_rad)
+    put(Channel::heading, *sample.heading_rad,
+        sample.heading_std_rad.value_or(model_.compass.heading_noise_rad()));
+  if (!sample.field_body_uT || !sample.roll_rad || !sample.pitch_rad) return;
+  const auto& [x, y, z] = *sample.field_body_uT;
+  const double sr = std::sin(*sample.roll_rad), cr = std::cos(*sample.roll_rad);
+  const double sp = std::sin(*sample.pitch_rad), cp = std::cos(*sample.pitch_rad);
+  field_level_uT_ += std::hypot(x * cp + y * sr * sp + z * cr * sp, y * cr - z * sr);
+  field_down_uT_ += -x * sp + y * sr * cp + z * cr * cp;
+}
+
+void MotionGatherer::add(const instruments::GpsSample& sample) {
+  using instruments::Fix;
+  if (!sample.latitude_rad || !sample.longitude_rad || (sample.fix != Fix::fix_2d && sample.fix != Fix::fix_3d))
+    return;
+  field_.take(sample);
+  fix_number_ = static_cast<double>(time_ns_ - last_fix_ns_) < kSightLost_s * 1e9 ? fix_number_ + 1 : 0;
+  last_fix_ns_ = time_ns_;
+  if (!plane_) plane_.emplace(*sample.latitude_rad, *sample.longitude_rad);
+  const auto [north_m, east_m] = plane_->position_m(*sample.latitude_rad, *sample.longitude_rad);
+  const double factor = model_.gps.noise_factor(fix_number_);
+  const double position_std = factor * sample.position_std_m.value_or(model_.gps.position_noise_m);
+  put(Channel::north, north_m, position_std);
+  put(Channel::east, east_m, position_std);
+  if (!sample.speed_m_s || !sample.course_rad) return;
+  const double velocity_std = factor * sample.velocity_std_m_s.value_or(model_.gps.velocity_noise_m_s);
+  put(Channel::north_velocity, *sample.speed_m_s * std::cos(*sample.course_rad), velocity_std);
+  put(Channel::east_velocity, *sample.speed_m_s * std::sin(*sample.course_rad), velocity_std);
+}
+
+void MotionGatherer::add(const instruments::MotorSample& sample) {
+  if (port().protocol == protocols::Protocol::motor_card) fins_are_reported_ = true;
+  signal("rpm", sample.rpm);
+  signal("rpm_commanded", sample.rpm_commanded);
+  for (std::size_t i = 0; i < 3; ++i) signal(fmt::format("fin_{}", i + 1), sample.fins_rad[i]);
+}
+
+void MotionGatherer::add(const instruments::DvlSample& sample) {
+  if (sample.frame != instruments::VelocityFrame::body) return;
+  if (sample.bottom_velocity_m_s)
+    put3(Channel::bottom_x, *sample.bottom_velocity_m_s,
+         sample.bottom_velocity_std_m_s.value_or(kDopplerNoise_m_s));
+  if (sample.water_velocity_m_s)
+    put3(Channel::water_x, *sample.water_velocity_m_s, sample.water_velocity_std_m_s.value_or(kDopplerNoise_m_s));
+}
+
+void MotionGatherer::add(const instruments::DepthSample& sample) {
+  constexpr double kPa_per_m = kWater_kg_m3 * base::kGravity_m_s2;
+  if (sample.depth_m) {
+    put(Channel::gauge_depth, *sample.depth_m, sample.depth_std_m.value_or(kGaugeNoise_m));
+  } else if (sample.pressure_Pa) {
+    put(Channel::gauge_depth, (*sample.pressure_Pa - kAtmosphere_Pa) / kPa_per_m,
+        sample.pressure_std_Pa ? *sample.pressure_std_Pa / kPa_per_m : kGaugeNoise_m);
+  }
+}
+
 /// Readings in order of time; with `least_s` above zero, means of all within that time.
 std::vector<Reading> readings_of(const Source& source, std::int64_t begin_ns, double least_s) {
   std::vector<Reading> all;
@@ -237,6 +204,49 @@ std::vector<Reading> readings_of(const Source& source, std::int64_t begin_ns, do
     means.push_back({mean.time_s / count, mean.value / count, mean.std / std::sqrt(count)});
   }
   return means;
+}
+
+RecordedMotion MotionGatherer::take(std::int64_t begin_ns) {
+  RecordedMotion motion;
+  const auto place = [](const config::PortSettings& port) {
+    return Eigen::Vector3d(port.mounting.position_m[0], port.mounting.position_m[1], port.mounting.position_m[2]);
+  };
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    const auto most = std::max_element(sources_.begin(), sources_.end(), [&](const auto& a, const auto& b) {
+      return a[c].values.size() < b[c].values.size();
+    });
+    if (most == sources_.end() || (*most)[c].values.empty()) continue;
+    const bool is_inertial = channel <= Channel::force_z;
+    motion.channels[c] = readings_of((*most)[c], begin_ns, is_inertial ? kShortest_s : 0);
+    motion.duration_s = std::max(motion.duration_s, motion.channels[c].back().time_s);
+    const config::PortSettings& from = settings_.ports[static_cast<std::size_t>(most - sources_.begin())];
+    if (channel == Channel::force_x || channel == Channel::depth) motion.imu_place_m = place(from);
+    if (channel == Channel::gauge_depth) motion.gauge_place_m = place(from);
+    if (channel == Channel::bottom_x || channel == Channel::water_x) motion.doppler_place_m = place(from);
+    if (channel == Channel::north) motion.antenna_place_m = place(from);
+    if (channel == Channel::roll && from.protocol == protocols::Protocol::tcm2)
+      motion.tilt_lag_s = model_.compass.tilt_lag_s;
+  }
+  for (auto& [name, signal] : signals_) {
+    std::vector<std::size_t> order(signal.first.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&times = signal.first](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+    Signal& out = motion.signals[name];
+    out.is_pulse = pulses_.contains(name);
+    for (const std::size_t i : order) {
+      out.times_s.push_back(static_cast<double>(signal.first[i] - begin_ns) * 1e-9);
+      out.values.push_back(signal.second[i]);
+    }
+  }
+  motion.fins_are_reported = fins_are_reported_;
+  if (motion.tilt_lag_s > 0 && field_level_uT_ > 0) motion.dip_rad = std::atan2(field_down_uT_, field_level_uT_);
+  motion.gyro_turn_on_rad_s = model_.imu.turn_on_bias_rad_s;
+  motion.heading_is_true = heading_is_true_;
+  if (field_.field().declination_source != pipeline::EarthField::Source::none)
+    motion.declination_rad = field_.field().declination_rad;
+  return motion;
 }
 
 }  // namespace

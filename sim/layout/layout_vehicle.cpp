@@ -3,12 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "sim/layout/mass_matrix.h"
-#include "sim/layout/vector_of.h"
 
 namespace navcal::sim {
 namespace {

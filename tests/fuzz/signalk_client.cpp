@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "tests/fuzz/target.h"
-#include "web/outlets/signalk_subscription.h"
+#include "web/outlets/signalk.h"
 
 namespace navcal::fuzz::signalk_client_target {
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "runs/evidence.h"
 #include "tests/runs/four_thrusters.h"
 
 namespace navcal::runs {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runs/scatter.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "runs/nominal_vehicle.h"
 
 namespace navcal::runs {
 namespace {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/web/foxglove_link.h"
+#include "web/foxglove/channels.h"
 #include "web/foxglove/peer.h"
 #include "web/foxglove/protocol.h"
-#include "web/foxglove/schemas.h"
 
 namespace navcal::web::foxglove {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "web/page_state.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+
+#include "web/page_feed.h"
 
 namespace navcal::web {
 namespace {

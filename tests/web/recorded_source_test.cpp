@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "web/recorded_source.h"
-
 #include <gtest/gtest.h>
 
 #include <boost/asio/io_context.hpp>
@@ -11,6 +9,7 @@
 #include "record/recording.h"
 #include "tests/record/sample_log.h"
 #include "tests/support/temporary_folder.h"
+#include "web/viewer.h"
 
 namespace navcal::web {
 namespace {

@@ -6,14 +6,27 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "protocols/motor_card.h"
 #include "validation/reference/card.h"
 #include "validation/reference/compass.h"
 #include "validation/reference/receiver.h"
-#include "validation/reference/world.h"
 
 namespace navcal::reference {
+
+World::World(Vehicle vehicle, double memory_s, double surface_C)
+    : History(vehicle.snapshot(), Vehicle::kStep_s, memory_s, surface_C), vehicle_(std::move(vehicle)) {}
+
+void World::advance(double to_s) {
+  const double begin_s = vehicle_.time_s();
+  const auto steps = std::llround((to_s - begin_s) / Vehicle::kStep_s);
+  for (long long i = 1; i <= steps; ++i) {
+    vehicle_.advance(begin_s + static_cast<double>(i) * Vehicle::kStep_s);
+    remember(vehicle_.snapshot());
+  }
+}
+
 namespace {
 
 namespace motor_wire = protocols::motor_card;
@@ -71,15 +84,6 @@ struct Controls {
   Vector3 fins_rad = Vector3::Zero();
 };
 
-constexpr double kFinRange_rad = 15 * kDegree, kPitchRange_rad = 25 * kDegree;
-constexpr double kMetresPerTurn = 0.0872;  ///< of the shaft, at a steady speed
-/// Integrals are for small errors that stay: a turn or a dive must not wind them up.
-constexpr double kNear_rad = 0.2, kNear_m = 0.4;
-
-void gather(double& sum, double missed, double near) {
-  if (std::abs(missed) < near) sum += missed * Helmsman::kPeriod_s;
-}
-
 /// The vehicle's own autopilot, ten times a second. It knows nothing but what the instruments say, as a vehicle's
 /// does, so that their errors steer it:
 ///     rudder = 0.35 e + 0.02 int(e) - 0.3 r                     e: heading wanted less heading
@@ -92,30 +96,41 @@ class Helmsman {
 
   static constexpr double kPeriod_s = 0.1;
 
-  [[nodiscard]] Controls steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card) {
-    double rudder = order.rudder_rad, elevator = order.elevator_rad;
-    if (order.heading_rad) {
-      const double missed =
-          std::remainder(*order.heading_rad - compass.heading_rad - variation_rad_, 2 * std::numbers::pi);
-      gather(heading_sum_, missed, kNear_rad);
-      rudder = std::clamp(0.35 * missed + 0.02 * heading_sum_ - 0.3 * card.yaw_rate_rad_s, -kFinRange_rad,
-                          kFinRange_rad);
-    }
-    if (order.depth_m) {
-      const double missed = *order.depth_m - card.depth_m;
-      gather(depth_sum_, missed, kNear_m);
-      const double pitch = std::clamp(-(0.3 * missed + 0.02 * depth_sum_), -kPitchRange_rad, kPitchRange_rad);
-      elevator = std::clamp(0.8 * (pitch - compass.pitch_rad) - 0.4 * card.pitch_rate_rad_s, -kFinRange_rad,
-                            kFinRange_rad);
-    }
-    const double shaft_rev_s = order.speed_m_s ? *order.speed_m_s / kMetresPerTurn : order.shaft_rev_s;
-    return {shaft_rev_s, FinLinkage::mixed(rudder, elevator) + order.fins_beside_rad};
-  }
+  [[nodiscard]] Controls steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card);
 
  private:
   double variation_rad_;
   double heading_sum_ = 0, depth_sum_ = 0;  ///< integrals of what was missed
 };
+
+constexpr double kFinRange_rad = 15 * kDegree, kPitchRange_rad = 25 * kDegree;
+constexpr double kMetresPerTurn = 0.0872;  ///< of the shaft, at a steady speed
+/// Integrals are for small errors that stay: a turn or a dive must not wind them up.
+constexpr double kNear_rad = 0.2, kNear_m = 0.4;
+
+void gather(double& sum, double missed, double near) {
+  if (std::abs(missed) < near) sum += missed * Helmsman::kPeriod_s;
+}
+
+Controls Helmsman::steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card) {
+  double rudder = order.rudder_rad, elevator = order.elevator_rad;
+  if (order.heading_rad) {
+    const double missed =
+        std::remainder(*order.heading_rad - compass.heading_rad - variation_rad_, 2 * std::numbers::pi);
+    gather(heading_sum_, missed, kNear_rad);
+    rudder =
+        std::clamp(0.35 * missed + 0.02 * heading_sum_ - 0.3 * card.yaw_rate_rad_s, -kFinRange_rad, kFinRange_rad);
+  }
+  if (order.depth_m) {
+    const double missed = *order.depth_m - card.depth_m;
+    gather(depth_sum_, missed, kNear_m);
+    const double pitch = std::clamp(-(0.3 * missed + 0.02 * depth_sum_), -kPitchRange_rad, kPitchRange_rad);
+    elevator =
+        std::clamp(0.8 * (pitch - compass.pitch_rad) - 0.4 * card.pitch_rate_rad_s, -kFinRange_rad, kFinRange_rad);
+  }
+  const double shaft_rev_s = order.speed_m_s ? *order.speed_m_s / kMetresPerTurn : order.shaft_rev_s;
+  return {shaft_rev_s, FinLinkage::mixed(rudder, elevator) + order.fins_beside_rad};
+}
 
 void check(const Mission& mission) {
   if (!std::isfinite(mission.duration_s) || mission.duration_s < 0)

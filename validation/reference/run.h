@@ -4,12 +4,30 @@
 #include <cstdint>
 #include <optional>
 
+#include "validation/reference/history.h"
 #include "validation/reference/instrument.h"
 #include "validation/reference/mission.h"
 #include "validation/reference/parameter_deviations.h"
 #include "validation/reference/sink.h"
+#include "validation/reference/vehicle.h"
+#include "validation/reference/waters.h"
 
 namespace navcal::reference {
+
+/// The vehicle with its recent past.
+class World : public History {
+ public:
+  /// `memory_s`: how far back at() may reach.
+  World(Vehicle vehicle, double memory_s, double surface_C = Waters{}.surface_C);
+
+  /// A whole number of steps of the vehicle on.
+  void advance(double to_s);
+
+  [[nodiscard]] Vehicle& vehicle() { return vehicle_; }
+
+ private:
+  Vehicle vehicle_;
+};
 
 /// Properties of the vehicle, apart from its mission.
 struct VehicleUnderTest {

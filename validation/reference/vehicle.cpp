@@ -4,8 +4,6 @@
 #include <Eigen/LU>
 #include <numbers>
 
-#include "validation/reference/dormand_prince.h"
-
 namespace navcal::reference {
 namespace {
 

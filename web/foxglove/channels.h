@@ -15,6 +15,11 @@
 
 namespace navcal::web::foxglove {
 
+[[nodiscard]] std::string location_fix_schema();
+[[nodiscard]] std::string pose_in_frame_schema();
+[[nodiscard]] std::string frame_transform_schema();
+[[nodiscard]] std::string log_schema();
+
 struct Quaternion {
   double x = 0, y = 0, z = 0, w = 1;
 };

@@ -7,7 +7,7 @@
 #include "validation/reference/effects.h"
 #include "validation/reference/instrument.h"
 #include "validation/reference/parameter_deviations.h"
-#include "validation/reference/world.h"
+#include "validation/reference/run.h"
 
 namespace navcal::reference::testing {
 

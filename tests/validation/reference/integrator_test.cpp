@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "validation/reference/dormand_prince.h"
 #include "validation/reference/vehicle.h"
 
 namespace navcal::reference::testing {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "web/outlets/signalk_subscription.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "web/outlets/signalk.h"
 
 namespace navcal::web {
 namespace {
