@@ -21,20 +21,20 @@ struct Situation {
 /// One step of a mission under way; it changes the demand.
 class Manoeuvre {
  public:
+  explicit Manoeuvre(const config::MissionStep& step) : step_(step) {}
   virtual ~Manoeuvre() = default;
   /// Called once, before the first go_on().
   virtual void begin(const Situation& now, Demand& demand) = 0;
   /// Called at each period; false: the manoeuvre is done, and `demand` keeps its values.
   [[nodiscard]] virtual bool go_on(const Situation& now, Demand& demand) = 0;
+
+ protected:
+  const config::MissionStep step_;
 };
 
 /// The heading next to `near_rad` that is `heading_rad` but for whole turns.
 [[nodiscard]] double nearest_heading(double heading_rad, double near_rad);
 
-/// Leg, dive, surface, speed: in steady_manoeuvre.cpp. Turn, circle, spiral, swing: in turning_manoeuvre.cpp.
-/// Zigzag, pirouette, doublet, direct: in rudder_manoeuvre.cpp.
-[[nodiscard]] std::unique_ptr<Manoeuvre> make_steady_manoeuvre(const config::MissionStep& step);
-[[nodiscard]] std::unique_ptr<Manoeuvre> make_turning_manoeuvre(const config::MissionStep& step);
-[[nodiscard]] std::unique_ptr<Manoeuvre> make_rudder_manoeuvre(const config::MissionStep& step);
+[[nodiscard]] std::unique_ptr<Manoeuvre> make_manoeuvre(const config::MissionStep& step);
 
 }  // namespace navcal::autopilot

@@ -4,29 +4,6 @@
 #include <utility>
 
 namespace navcal::autopilot {
-namespace {
-
-std::unique_ptr<Manoeuvre> make_manoeuvre(const config::MissionStep& step) {
-  using config::StepKind;
-  switch (step.kind) {
-    case StepKind::leg:
-    case StepKind::dive:
-    case StepKind::surface:
-    case StepKind::speed: return make_steady_manoeuvre(step);
-    case StepKind::turn:
-    case StepKind::circle:
-    case StepKind::spiral:
-    case StepKind::swing: return make_turning_manoeuvre(step);
-    case StepKind::zigzag:
-    case StepKind::pirouette:
-    case StepKind::doublet:
-    case StepKind::direct: break;
-  }
-  return make_rudder_manoeuvre(step);
-}
-
-}  // namespace
-
 MissionSteps::MissionSteps(config::Mission mission) : mission_(std::move(mission)) {
   demand_.heading_rad = mission_.start.heading_rad;
   demand_.depth_m = mission_.start.depth_m;

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
 #include <cstdlib>
 
+#include "base/durations.h"
 #include "instruments/devices.h"
 #include "instruments/mavlink_decoder.h"
+#include "protocols/mavlink.h"
 
 namespace navcal::instruments {
+
 namespace {
 
 constexpr std::int64_t kAttitudeAge_ns = 100'000'000;
@@ -69,6 +76,114 @@ class MavlinkVehicle final : public Instrument {
 
 std::unique_ptr<Instrument> make_mavlink(const config::PortSettings& settings) {
   return std::make_unique<MavlinkVehicle>(settings);
+}
+
+namespace {
+
+namespace mavlink = protocols::mavlink;
+
+constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105;
+constexpr std::uint16_t kSetMessageInterval = 511;
+constexpr std::uint8_t kOurComponent = 197;
+constexpr int kHeartbeatsOfRound = 30;  // heartbeats; then a ground station may have asked for other rates
+constexpr std::int64_t kAutopilotLost_ns = 5 * base::kSecond_ns;
+
+/// MAVLink (ICD section 17): a heartbeat once a second, in the name of a component of the vehicle, so that routers
+/// forward what is for us; and the rates of the messages, again every half minute and when the autopilot has
+/// restarted.
+class StartUpMavlink final : public StartUp {
+ public:
+  explicit StartUpMavlink(const config::PortSettings& settings) {
+    constexpr std::array<std::uint32_t, 3> kImu{27, 116, 129}, kPressure{29, 137, 143};
+    constexpr std::uint32_t kOutputs = 36, kAttitude = 30, kBattery = 147, kGps = 24;
+    const double rate_Hz = settings.rate_Hz > 0 ? settings.rate_Hz : 50;
+    imu_ = kImu.at(static_cast<std::size_t>(settings.inertial_unit - 1));
+    if (settings.inertial_unit == 1) requests_.push_back({kHighresImu, rate_Hz});
+    requests_.insert(requests_.end(),
+                     {{imu_, rate_Hz}, {kOutputs, rate_Hz}, {kAttitude, 20}, {kBattery, 10}, {kGps, 5}});
+    if (settings.pressure_sensor <= 3)
+      requests_.push_back({kPressure.at(static_cast<std::size_t>(settings.pressure_sensor - 1)), 10});
+  }
+
+ private:
+  using Request = std::pair<std::uint32_t, double>;  // message, Hz
+
+  Script script() override {
+    for (;;) {
+      vehicle_.reset();
+      enter("waiting for the heartbeat of an autopilot");
+      while (!vehicle_)
+        co_await wait(base::kSecond_ns, [this](const protocols::Frame&) { return vehicle_.has_value(); });
+      while (now_ns() - heard_ns_ < kAutopilotLost_ns) {
+        restarted_ = false;
+        refused_.clear();
+        unanswered_.clear();
+        bool has_high_resolution = false;
+        for (const Request& request : requests_) {
+          if (request.first == imu_ && has_high_resolution) continue;
+          co_await send(heartbeat(), 0);
+          result_ = kNoAnswer;
+          const bool is_answered = co_await ask(interval(request), 3, base::kSecond_ns / 2,
+                                                [this](const protocols::Frame&) { return result_ != kNoAnswer; });
+          const bool is_accepted = is_answered && result_ == 0;
+          if (request.first == kHighresImu)
+            has_high_resolution = is_accepted;
+          else if (!is_accepted)
+            note(is_answered ? refused_ : unanswered_, std::string(mavlink::message_of(request.first)->name));
+        }
+        enter(fmt::format("running, system {}; its compass is corrected by its own calibration", *vehicle_), true);
+        for (int i = 0; i < kHeartbeatsOfRound && !restarted_ && now_ns() - heard_ns_ < kAutopilotLost_ns; ++i)
+          co_await send(heartbeat(), base::kSecond_ns);
+      }
+    }
+  }
+
+  void on_any_frame(const protocols::Frame& frame) override {
+    const mavlink::Message message = mavlink::find_message(frame.bytes).message;
+    const mavlink::Payload payload(message.payload);
+    if (message.component != mavlink::kAutopilot || (vehicle_ && *vehicle_ != message.system)) return;
+    if (message.id == kHeartbeat && payload.at<std::uint8_t>(5) != mavlink::kNoAutopilot) {
+      vehicle_ = message.system;
+      heard_ns_ = now_ns();
+    }
+    if (message.id == kAck && payload.at<std::uint16_t>(0) == kSetMessageInterval &&
+        (payload.at<std::uint8_t>(9) == 0 || payload.at<std::uint8_t>(9) == kOurComponent))
+      result_ = payload.at<std::uint8_t>(2);
+    if (message.id != 30) return;
+    const auto boot_ms = payload.at<std::uint32_t>(0);
+    if (boot_ms < boot_ms_ && boot_ms_ - boot_ms > 1000) restarted_ = true;
+    boot_ms_ = boot_ms;
+  }
+
+  std::vector<std::uint8_t> heartbeat() {
+    constexpr std::array<std::uint8_t, 9> kOnboardController{0, 0, 0, 0, 18, 8, 0, 4, 3};
+    return mavlink::encode(kHeartbeat, {*vehicle_, kOurComponent, sequence_++}, kOnboardController);
+  }
+  std::vector<std::uint8_t> interval(const Request& request) {
+    std::array<std::uint8_t, 33> payload{};
+    protocols::put_le(payload.data(), static_cast<float>(request.first));
+    protocols::put_le(payload.data() + 4, static_cast<float>(std::round(1e6 / request.second)));
+    protocols::put_le(payload.data() + 28, kSetMessageInterval);
+    payload[30] = *vehicle_;
+    payload[31] = mavlink::kAutopilot;
+    return mavlink::encode(kCommand, {*vehicle_, kOurComponent, sequence_++}, payload);
+  }
+
+  static constexpr int kNoAnswer = -1;
+  std::vector<Request> requests_;
+  std::uint32_t imu_ = 0;  ///< the message of the inertial unit, without HIGHRES_IMU
+  std::optional<std::uint8_t> vehicle_;
+  std::int64_t heard_ns_ = 0;
+  std::uint32_t boot_ms_ = 0;
+  std::uint8_t sequence_ = 0;
+  int result_ = kNoAnswer;  ///< of the newest request
+  bool restarted_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<StartUp> start_mavlink(const config::PortSettings& settings) {
+  return std::make_unique<StartUpMavlink>(settings);
 }
 
 }  // namespace navcal::instruments

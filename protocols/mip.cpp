@@ -5,9 +5,11 @@
 #include <string_view>
 
 #include "protocols/fletcher.h"
+#include "protocols/mip_commands.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::mip {
+
 namespace {
 
 constexpr double kStandardGravity_m_s2 = 9.80665, kGauss_uT = 100, kMillibar_Pa = 100;
@@ -32,6 +34,8 @@ constexpr VectorField kVectorFields[] = {
     {kFilterSet, 0x0E, &Packet::filter_rate_rad_s, 1},
 };
 
+constexpr std::uint8_t kWriteSetting = 1;
+constexpr std::uint8_t kSensorSelector = 1, kFilterSelector = 3;
 constexpr std::uint8_t kGpsTimeField = 0xD3, kDeltaTimeField = 0xD4, kReferenceField = 0xD5,
                        kReferenceDelta = 0xD6;
 constexpr std::uint8_t kReplyField = 0xF1, kPressureField = 0x17, kPositionField = 0x01, kStatusField = 0x10;
@@ -136,6 +140,16 @@ Field field_of(std::uint8_t descriptor, T... values) {
   return field;
 }
 
+/// A command whose arguments end with a list of fields and their rates.
+std::vector<std::uint8_t> encode_format(Field field, const std::vector<FieldRate>& rates) {
+  field.data.push_back(static_cast<std::uint8_t>(rates.size()));
+  for (const FieldRate& rate : rates) {
+    field.data.push_back(rate.descriptor);
+    append_be(field.data, rate.decimation);
+  }
+  return encode_fields(k3dmSet, {field});
+}
+
 }  // namespace
 
 FrameId id_of(std::uint8_t set) {
@@ -226,13 +240,60 @@ std::vector<std::uint8_t> encode_command(BaseCommand command) {
 }
 
 std::vector<std::uint8_t> encode_message_format(std::uint8_t set, const std::vector<FieldRate>& rates) {
-  constexpr std::uint8_t kMessageFormat = 0x0F, kApplyNew = 1;
-  Field field{kMessageFormat, {kApplyNew, set, static_cast<std::uint8_t>(rates.size())}};
-  for (const FieldRate& rate : rates) {
-    field.data.push_back(rate.descriptor);
-    append_be(field.data, rate.decimation);
+  return encode_format({command_3dm::kFormat, {kWriteSetting, set}}, rates);
+}
+
+std::vector<std::uint8_t> encode_base_rate_request(std::uint8_t set, bool by_set) {
+  if (!by_set) return encode_fields(k3dmSet, {{command_3dm::kBaseRate, {set}}});
+  return encode_fields(k3dmSet,
+                       {{set == kFilterSet ? command_3dm::kFilterBaseRate : command_3dm::kSensorBaseRate, {}}});
+}
+
+std::vector<std::uint8_t> encode_format_by_set(std::uint8_t set, const std::vector<FieldRate>& rates) {
+  return encode_format(
+      {set == kFilterSet ? command_3dm::kFilterFormat : command_3dm::kSensorFormat, {kWriteSetting}}, rates);
+}
+
+std::vector<std::uint8_t> encode_data_stream(std::uint8_t set, bool on, bool by_set) {
+  const std::uint8_t selector = !by_set ? set : set == kFilterSet ? kFilterSelector : kSensorSelector;
+  return encode_fields(
+      k3dmSet, {{command_3dm::kDataStream, {kWriteSetting, selector, on ? std::uint8_t{1} : std::uint8_t{0}}}});
+}
+
+std::vector<std::uint8_t> encode_reply(std::uint8_t set, const Reply& reply) {
+  return encode_fields(set, {{kReplyField, {reply.command, reply.error}}});
+}
+
+std::vector<std::uint8_t> encode_base_rate(const Reply& reply, const BaseRate& rate) {
+  Field field;
+  switch (reply.command) {
+    case command_3dm::kSensorBaseRate: field.descriptor = kSensorRateReply; break;
+    case command_3dm::kFilterBaseRate: field.descriptor = kFilterRateReply; break;
+    default: field = {kRateReply, {rate.set}}; break;
   }
-  return encode_fields(k3dmSet, {field});
+  append_be(field.data, rate.rate_Hz);
+  return encode_fields(k3dmSet, {{kReplyField, {reply.command, reply.error}}, field});
+}
+
+std::vector<FieldBytes> fields_of(Bytes frame) {
+  std::vector<FieldBytes> fields;
+  if (frame.size() < kOverhead) return fields;
+  for (Bytes rest = frame.subspan(4, frame.size() - kOverhead); !rest.empty();) {
+    const std::size_t length = rest[0];
+    if (length < 2 || length > rest.size()) break;
+    fields.push_back({rest[1], rest.subspan(2, length - 2)});
+    rest = rest.subspan(length);
+  }
+  return fields;
+}
+
+std::vector<FieldRate> decode_format(Bytes list) {
+  std::vector<FieldRate> rates;
+  if (list.empty() || list.size() != 1 + std::size_t{3} * list[0]) return rates;
+  for (Bytes rest = list.subspan(1); !rest.empty(); rest = rest.subspan(3)) {
+    rates.push_back({rest[0], get_be<std::uint16_t>(&rest[1])});
+  }
+  return rates;
 }
 
 }  // namespace navcal::protocols::mip

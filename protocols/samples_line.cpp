@@ -2,9 +2,13 @@
 #include "protocols/samples_line.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace navcal::protocols::samples_line {
+
 namespace {
 
 const std::uint8_t* find_byte(const std::uint8_t* first, const std::uint8_t* last, char byte) {
@@ -58,6 +62,139 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   if (close <= first || *close != '}') return Scan::bad_checksum();
   const auto length = static_cast<std::size_t>(end + 1 - first);
   return Scan::frame(length, class_of({reinterpret_cast<const char*>(first), length}));
+}
+
+namespace {
+
+void append_shortest(std::string& text, double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, static_cast<std::size_t>(end - digits));
+}
+
+/// Bytes of the UTF-8 sequence at the beginning of `text`; 0 when it is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+  }
+  // Not the shortest form, a surrogate, or beyond the last code point.
+  if (length < 3) return length;
+  const auto second = static_cast<unsigned char>(text[1]);
+  const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+  return is_wrong ? 0 : length;
+}
+
+/// `{` is escaped too: the bytes `{"` begin a line and nothing else.
+void append_escaped(std::string& text, char c) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  if (byte >= ' ' && c != '"' && c != '\\' && c != '{') {
+    text += c;
+  } else {
+    text += "\\u00";
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 0x0F];
+  }
+}
+
+}  // namespace
+
+LineWriter::LineWriter(std::string_view class_name) {
+  line_ = "{\"class\":\"";
+  line_ += class_name;
+  line_ += '"';
+}
+
+void LineWriter::begin(std::string_view key) {
+  line_ += ",\"";
+  line_ += key;
+  line_ += "\":";
+}
+
+LineWriter& LineWriter::seconds(std::string_view key, std::int64_t ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  if (ns < 0) return *this;
+  begin(key);
+  line_ += std::to_string(ns / kSecond_ns);
+  const std::string decimals = std::to_string(ns % kSecond_ns);
+  line_ += '.';
+  line_.append(9 - decimals.size(), '0');
+  line_ += decimals;
+  return *this;
+}
+
+LineWriter& LineWriter::number(std::string_view key, double value) {
+  if (!std::isfinite(value)) return *this;
+  begin(key);
+  append_shortest(line_, value);
+  return *this;
+}
+
+LineWriter& LineWriter::number(std::string_view key, const std::optional<double>& value) {
+  return value ? number(key, *value) : *this;
+}
+
+LineWriter& LineWriter::vector(std::string_view key, const std::array<double, 3>& values) {
+  if (!std::isfinite(values[0]) || !std::isfinite(values[1]) || !std::isfinite(values[2])) return *this;
+  begin(key);
+  char separator = '[';
+  for (const double value : values) {
+    line_ += separator;
+    append_shortest(line_, value);
+    separator = ',';
+  }
+  line_ += ']';
+  return *this;
+}
+
+LineWriter& LineWriter::three(std::string_view key, const std::array<std::optional<double>, 3>& values) {
+  begin(key);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    line_ += i == 0 ? '[' : ',';
+    if (values[i] && std::isfinite(*values[i])) {
+      append_shortest(line_, *values[i]);
+    } else {
+      line_ += "null";
+    }
+  }
+  line_ += ']';
+  return *this;
+}
+
+LineWriter& LineWriter::text(std::string_view key, std::string_view value) {
+  begin(key);
+  line_ += '"';
+  while (!value.empty()) {
+    const std::size_t length = utf8_length(value);
+    if (length == 1) {
+      append_escaped(line_, value.front());
+    } else {
+      line_ += length == 0 ? std::string_view("\xEF\xBF\xBD") : value.substr(0, length);
+    }
+    value.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  line_ += '"';
+  return *this;
+}
+
+LineWriter& LineWriter::boolean(std::string_view key, bool value) {
+  begin(key);
+  line_ += value ? "true" : "false";
+  return *this;
+}
+
+std::string LineWriter::finish() {
+  line_ += "}\n";
+  return std::exchange(line_, {});
 }
 
 }  // namespace navcal::protocols::samples_line
