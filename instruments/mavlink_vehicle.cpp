@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "base/durations.h"
+#include "instruments/autopilot_compass.h"
 #include "instruments/devices.h"
 #include "instruments/mavlink_decoder.h"
 #include "protocols/mavlink.h"
@@ -82,21 +83,23 @@ namespace {
 
 namespace mavlink = protocols::mavlink;
 
-constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105;
+constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kReadParameter = 20,
+                        kParameter = 22;
 constexpr std::uint16_t kSetMessageInterval = 511;
 constexpr std::uint8_t kOurComponent = 197;
 constexpr int kHeartbeatsOfRound = 30;  // heartbeats; then a ground station may have asked for other rates
 constexpr std::int64_t kAutopilotLost_ns = 5 * base::kSecond_ns;
 
 /// MAVLink (ICD section 17): a heartbeat once a second, in the name of a component of the vehicle, so that routers
-/// forward what is for us; and the rates of the messages, again every half minute and when the autopilot has
-/// restarted.
+/// forward what is for us; the rates of the messages and the calibration of the compass, again every half minute
+/// and when the autopilot has restarted.
 class StartUpMavlink final : public StartUp {
  public:
   explicit StartUpMavlink(const config::PortSettings& settings) {
     constexpr std::array<std::uint32_t, 3> kImu{27, 116, 129}, kPressure{29, 137, 143};
     constexpr std::uint32_t kOutputs = 36, kAttitude = 30, kBattery = 147, kGps = 24;
     const double rate_Hz = settings.rate_Hz > 0 ? settings.rate_Hz : 50;
+    compass_ = AutopilotCompass::names(settings.inertial_unit - 1);
     imu_ = kImu.at(static_cast<std::size_t>(settings.inertial_unit - 1));
     if (settings.inertial_unit == 1) requests_.push_back({kHighresImu, rate_Hz});
     requests_.insert(requests_.end(),
@@ -118,7 +121,15 @@ class StartUpMavlink final : public StartUp {
         restarted_ = false;
         refused_.clear();
         unanswered_.clear();
-        bool has_high_resolution = false;
+        bool has_high_resolution = false, has_calibration = true;
+        co_await send(heartbeat(), 0);
+        for (const std::string& name : compass_) {
+          parameter_.clear();
+          const bool is_known = co_await ask(reading(name), 3, base::kSecond_ns / 2,
+                                             [&](const protocols::Frame&) { return parameter_ == name; });
+          has_calibration = is_known || AutopilotCompass::is_optional(name);
+          if (!has_calibration) break;
+        }
         for (const Request& request : requests_) {
           if (request.first == imu_ && has_high_resolution) continue;
           co_await send(heartbeat(), 0);
@@ -131,7 +142,9 @@ class StartUpMavlink final : public StartUp {
           else if (!is_accepted)
             note(is_answered ? refused_ : unanswered_, std::string(mavlink::message_of(request.first)->name));
         }
-        enter(fmt::format("running, system {}; its compass is corrected by its own calibration", *vehicle_), true);
+        enter(fmt::format("running, system {}; the compass's own calibration {}", *vehicle_,
+                          has_calibration ? "is undone" : "is not known, and stays in the field"),
+              true);
         for (int i = 0; i < kHeartbeatsOfRound && !restarted_ && now_ns() - heard_ns_ < kAutopilotLost_ns; ++i)
           co_await send(heartbeat(), base::kSecond_ns);
       }
@@ -149,6 +162,7 @@ class StartUpMavlink final : public StartUp {
     if (message.id == kAck && payload.at<std::uint16_t>(0) == kSetMessageInterval &&
         (payload.at<std::uint8_t>(9) == 0 || payload.at<std::uint8_t>(9) == kOurComponent))
       result_ = payload.at<std::uint8_t>(2);
+    if (message.id == kParameter) parameter_ = payload.text(8, 16);
     if (message.id != 30) return;
     const auto boot_ms = payload.at<std::uint32_t>(0);
     if (boot_ms < boot_ms_ && boot_ms_ - boot_ms > 1000) restarted_ = true;
@@ -169,9 +183,20 @@ class StartUpMavlink final : public StartUp {
     return mavlink::encode(kCommand, {*vehicle_, kOurComponent, sequence_++}, payload);
   }
 
+  std::vector<std::uint8_t> reading(const std::string& parameter) {
+    std::array<std::uint8_t, 20> payload{};
+    protocols::put_le(payload.data(), std::int16_t{-1});  // by its name
+    payload[2] = *vehicle_;
+    payload[3] = mavlink::kAutopilot;
+    std::copy_n(parameter.begin(), std::min<std::size_t>(parameter.size(), 16), payload.begin() + 4);
+    return mavlink::encode(kReadParameter, {*vehicle_, kOurComponent, sequence_++}, payload);
+  }
+
   static constexpr int kNoAnswer = -1;
   std::vector<Request> requests_;
-  std::uint32_t imu_ = 0;  ///< the message of the inertial unit, without HIGHRES_IMU
+  std::vector<std::string> compass_;  ///< parameters
+  std::string parameter_;             ///< name of the newest that came
+  std::uint32_t imu_ = 0;             ///< the message of the inertial unit, without HIGHRES_IMU
   std::optional<std::uint8_t> vehicle_;
   std::int64_t heard_ns_ = 0;
   std::uint32_t boot_ms_ = 0;
