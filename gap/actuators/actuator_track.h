@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "gap/actuators/actuator_track.h"
 #include "gap/actuators/fin_orders.h"
 #include "gap/data/mission.h"
 #include "sim/effects/effect_set.h"
