@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "gap/actuators/actuator_track.h"
 
 #include <algorithm>
 #include <cmath>
