@@ -203,8 +203,11 @@ void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
     judgement.reason = "no reading of " + silent + " so far";
     judgement.manoeuvre.clear();
   } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 && gives_no_field()) {
-    judgement.reason = "the compass gives headings without the field that it measures";
-    judgement.manoeuvre.clear();
+    const auto& left_out = gate_.counts().left_out[static_cast<std::size_t>(Stream::compass)];
+    const bool too_large = left_out[static_cast<std::size_t>(Rejection::field_too_large)] > 0;
+    judgement.reason = too_large ? "the measured field is larger than the 500 uT that the Earth and a vehicle make"
+                                 : "the compass gives headings without the field that it measures";
+    judgement.manoeuvre = too_large ? "take magnets away from the compass, and check the unit of its field" : "";
   }
   const bool by_field = row_of(report.calibrator).field_alone && !comparison(report.calibrator).is_judged();
   const Comparison& held_out = by_field ? field_.comparison() : comparison(report.calibrator);
