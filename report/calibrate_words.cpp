@@ -44,10 +44,11 @@ std::string_view instead_of_value(const calib::Quantity& quantity, double error,
   return quantity.name.starts_with("offset_") ? "not determined" : "";
 }
 
-/// Two error codes of the compass exclude only a part of its words.
+/// Some reasons exclude only a part of the words of a compass.
 std::string reason_in_words(calib::Rejection rejection) {
   if (rejection == calib::Rejection::tilt_out_of_range) return "heading and tilt by E002";
   if (rejection == calib::Rejection::field_out_of_range) return "heading and field by E004";
+  if (rejection == calib::Rejection::field_too_large) return "field over 500 uT";
   std::string reason(calib::name_of(rejection));
   std::replace(reason.begin(), reason.end(), '_', ' ');
   return reason;

@@ -68,8 +68,7 @@ void FieldHistory::add(const FieldCells<3, 6>::Cell& reading, double time_s, std
   now_.add(reading.mean);
 }
 
-void FieldHistory::begin_segment(const FieldStep& step, const SegmentNoise& noise, const SegmentBelief& belief) {
-  refine(noise, belief);
+void FieldHistory::begin_segment(const FieldStep& step) {
   if (steps_.size() == kMost) {
     steps_.erase(steps_.begin());
     segments_.erase(segments_.begin());
@@ -81,7 +80,7 @@ void FieldHistory::begin_segment(const FieldStep& step, const SegmentNoise& nois
   next_refinement_ = kFirstRefinement;
 }
 
-bool FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& belief) {
+bool FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& belief, bool is_sure) {
   // Lag, accelerations and whatever else no model describes are alike in neighbouring cells.
   constexpr double kAlike = 2.2;
   SegmentNoise noise = of_readings;
@@ -110,10 +109,28 @@ bool FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& 
   step.std_uT = (larger * fit->covariance.diagonal().segment<3>(EllipsoidShape::kParameters)).cwiseSqrt();
   const bool is_nothing = (step.size_uT.array().abs() < kLeastErrors * step.std_uT.array()).all();
   // A field that returned has its summary of before: nothing is made one there.
-  if (step.returned || !(is_nothing || one_field_explains(*fit, noise, belief))) return false;
+  if (is_sure || step.returned || !(is_nothing || one_field_explains(*fit, noise, belief))) return false;
   withdraw();
   refine(of_readings, belief);
   return true;
+}
+
+IronShift FieldHistory::shift_over(std::size_t count) const {
+  std::array<double, kMost> times{};  // that a step is in the sum; one back takes the step before away
+  double sign = 1;
+  for (std::size_t i = 0, step = 0; i < steps_.size(); ++i) {
+    const bool back = i > 0 && steps_[i].returned;
+    sign = back ? -sign : 1;
+    if (!back) step = i;
+    if (i + count >= steps_.size()) times[step] += sign;
+  }
+  IronShift shift;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    if (times[i] == 0) continue;
+    shift.by_uT += times[i] * steps_[i].size_uT;
+    shift.variance_uT2 += times[i] * times[i] * steps_[i].std_uT.cwiseAbs2();
+  }
+  return shift;
 }
 
 void FieldHistory::tell_spreads(const SegmentNoise& noise, const SegmentBelief& belief) {

@@ -23,14 +23,16 @@ class FieldHistory {
   /// A reading that was used.
   void add(const FieldCells<3, 6>::Cell& reading, double time_s, std::int64_t utc_ns);
   /// The field stepped: what comes belongs to another segment.
-  void begin_segment(const FieldStep& step, const SegmentNoise& noise, const SegmentBelief& belief);
-  /// Fits the last two segments anew. To be called at the end, and now and then before. True: the last step is
-  /// withdrawn, and its two segments are one.
-  bool refine(const SegmentNoise& noise, const SegmentBelief& belief);
+  void begin_segment(const FieldStep& step);
+  /// Fits the last two segments anew. To be called at the end, before a new segment, and now and then. True: the
+  /// last step is withdrawn, and its two segments are one. `is_sure`: the last step is none to be withdrawn.
+  bool refine(const SegmentNoise& noise, const SegmentBelief& belief, bool is_sure = false);
   [[nodiscard]] bool is_time_to_refine() const { return !steps_.empty() && readings() >= next_refinement_; }
 
   [[nodiscard]] const std::vector<FieldStep>& steps() const { return steps_; }
   [[nodiscard]] const std::vector<FieldSegment>& segments() const { return segments_; }
+  /// Change of the hard iron over the last `count` steps. A field that returned is exactly the one before.
+  [[nodiscard]] IronShift shift_over(std::size_t count) const;
   void archive(Archive& archive);
 
  private:

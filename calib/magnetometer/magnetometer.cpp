@@ -104,12 +104,13 @@ void Magnetometer::use(const Waiting& waiting) {
   if (past_.size() > kPast) past_.pop_front();
 }
 
-void Magnetometer::refine_history() {
-  if (!history_.refine(now_.predictor.noise(), now_.predictor.belief()) || !before_) return;
+void Magnetometer::refine_history(bool is_sure) {
+  if (!history_.refine(now_.predictor.noise(), now_.predictor.belief(), is_sure) || !before_) return;
   // There was no step: the readings before it are of the same field.
   now_.ellipse.absorb(before_->ellipse);
   now_.ellipsoid.absorb(before_->ellipsoid);
   before_.reset();
+  --field_steps_;
 }
 
 void Magnetometer::release() {

@@ -120,8 +120,9 @@ class Magnetometer {
   [[nodiscard]] PredictedReading predicted_of(const Reading& reading) const;
   void leave_out();
   void use(const Waiting& waiting);
+  /// `is_sure`: the last step is none to be withdrawn.
+  void refine_history(bool is_sure = false);
   /// All that wait are of the field so far, but for those far off.
-  void refine_history();
   void release();
   /// Compares one field with a step, and does what follows.
   void decide();

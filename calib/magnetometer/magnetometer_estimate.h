@@ -56,6 +56,12 @@ struct FieldStep {
   }
 };
 
+/// Change of the hard iron over steps of the field.
+struct IronShift {
+  Eigen::Vector3d by_uT = Eigen::Vector3d::Zero(), variance_uT2 = Eigen::Vector3d::Zero();
+  void archive(Archive& archive) { archive(by_uT, variance_uT2); }
+};
+
 /// The time between two steps of the field.
 struct FieldSegment {
   double begin_s = 0, end_s = 0;  ///< first and last reading

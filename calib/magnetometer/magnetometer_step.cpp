@@ -271,11 +271,12 @@ void Magnetometer::change_field(const FieldStep& found) {
   // The fit of a field that was seen from one side only does not tell whether a reading is of it.
   const bool cancels = before_ && last && (last->size_uT + step.size_uT).norm() < kCancelled * step.size_uT.norm();
   step.returned = cancels || is_field_before();
+  refine_history(step.returned);
   if (step.returned && last && last->std_uT.norm() < step.std_uT.norm()) {
     step.size_uT = -last->size_uT;
     step.std_uT = last->std_uT;
   }
-  history_.begin_segment(step, now_.predictor.noise(), now_.predictor.belief());
+  history_.begin_segment(step);
   Estimators next = step.returned ? *before_ : Estimators(parameters_);
   before_ = now_;
   now_ = std::move(next);

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "calib/magnetometer/field_cells.h"
+
 namespace navcal::calib {
 namespace {
 
 constexpr std::array<std::string_view, kRejections> kRejectionNames{
-    "not_finite", "absurd", "repeated",       "reversed",          "faulty",
-    "saturated",  "frozen", "motor_switched", "tilt_out_of_range", "field_out_of_range"};
+    "not_finite", "absurd",         "repeated",          "reversed",           "faulty",         "saturated",
+    "frozen",     "motor_switched", "tilt_out_of_range", "field_out_of_range", "field_too_large"};
 constexpr std::array<std::string_view, kStreams> kStreamNames{"compass", "imu", "gps", "motor"};
 
 /// A pause after which an instrument's readings begin a new segment.
@@ -25,7 +27,6 @@ constexpr std::uint32_t kReversedUntilRestart = 50;
 constexpr double kMaxHeading_rad = 2 * std::numbers::pi + 0.01;
 constexpr double kMaxPitch_rad = std::numbers::pi / 2 + 0.01;
 constexpr double kMaxRoll_rad = std::numbers::pi + 0.01;
-constexpr double kMaxField_uT = 1000;
 constexpr double kMinField_uT = 0.001;
 constexpr double kMaxRate_rad_s = 35;
 constexpr double kMaxSpecificForce_m_s2 = 200;
@@ -164,9 +165,13 @@ bool Gate::clean(CompassReading& reading) {
   if (reading.pitch_rad) check(reading.pitch_rad, fitness(*reading.pitch_rad, kMaxPitch_rad));
   if (reading.roll_rad) check(reading.roll_rad, fitness(*reading.roll_rad, kMaxRoll_rad));
   if (auto& field = reading.field_body_uT) {
-    Fitness fit = fitness_of_all(*field, kMaxField_uT);
-    if (fit == Fitness::good && field->norm() < kMinField_uT) fit = Fitness::absurd;
-    check(field, fit);
+    const Fitness fit = fitness_of_all(*field, kHighestField_uT);
+    if (fit == Fitness::absurd) {
+      count(Stream::compass, Rejection::field_too_large);
+      field.reset();
+    } else {
+      check(field, fit == Fitness::good && field->norm() < kMinField_uT ? Fitness::absurd : fit);
+    }
   }
   if (found) count(Stream::compass, rejection(*found));
   return reading.heading_rad || reading.field_body_uT || reading.pitch_rad || reading.roll_rad;
@@ -279,7 +284,7 @@ void Gate::watch_gap(Stream stream, double time_s) {
 }
 
 void Gate::archive(Archive& archive) {
-  archive.tag("gate 3");
+  archive.tag("gate 4");
   archive(queue_, counts_, newest_s_, released_s_, offset_s_, front_s_, back_s_);
   archive(restart_pending_, flushing_, reversed_in_a_row_, field_, heading_, rates_, motor_on_, motor_switched_s_);
 }

@@ -23,8 +23,9 @@ enum class Rejection : std::uint8_t {
   motor_switched,      ///< magnetic, and the motor was switched on or off about then
   tilt_out_of_range,   ///< heading and tilt, as the device reports (E002); the field is used
   field_out_of_range,  ///< heading and field, as the device reports (E004); the tilt is used
+  field_too_large,     ///< the field: more than the Earth and a vehicle's iron make (kHighestField_uT)
 };
-inline constexpr std::size_t kRejections = 10;
+inline constexpr std::size_t kRejections = 11;
 [[nodiscard]] std::string_view name_of(Rejection rejection);
 /// "compass", "imu", "gps", "motor".
 [[nodiscard]] std::string_view name_of(Stream stream);

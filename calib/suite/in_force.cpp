@@ -46,6 +46,15 @@ bool InForce::roll_back(Calibrator calibrator) {
   return true;
 }
 
+void InForce::move_hard_iron(const Eigen::Vector3d& by_uT) {
+  for (Change& change : history_) {
+    if (auto& field = change.before.magnetometer) field->offset_uT += by_uT;
+  }
+  if (!correction_.magnetometer) return;
+  correction_.magnetometer->offset_uT += by_uT;
+  rename();
+}
+
 void InForce::rename() {
   ++name_.number;
   Archive content;

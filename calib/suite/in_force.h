@@ -36,6 +36,9 @@ class InForce {
   /// Gives one calibrator the value that it had before its last change. False when there is none.
   bool roll_back(Calibrator calibrator);
 
+  /// The hard iron has changed by a step of the field: moves that in force, and those that can be rolled back to.
+  void move_hard_iron(const Eigen::Vector3d& by_uT);
+
   void archive(Archive& archive);
 
  private:

@@ -39,8 +39,10 @@ struct CalibratorReport {
   Judgement judgement;
   std::vector<Quantity> estimate;  ///< empty when there is none yet
   Eigen::MatrixXd covariance;      ///< of compass (B..E) and GPS-aided compass; empty of the others
-  bool held = false;               ///< rolled back: comes into force only by the operator's word
-  std::size_t steps_back = 0;      ///< changes that can be rolled back
+  /// Standard error that steps of the field since then add to the hard iron in force.
+  Eigen::Vector3d step_std_uT = Eigen::Vector3d::Zero();
+  bool held = false;           ///< rolled back: comes into force only by the operator's word
+  std::size_t steps_back = 0;  ///< changes that can be rolled back
 
   /// Null when the estimate has no such number.
   [[nodiscard]] const Quantity* quantity(std::string_view name) const;

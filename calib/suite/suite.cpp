@@ -70,6 +70,7 @@ void Suite::take_turned() {
 void Suite::judge(const TurnedReading& turned) {
   if (readings_ % kJudgeEvery == 0) refresh_accepted(judged_[readings_ / kJudgeEvery % judged_.size()]);
   ++readings_;
+  follow_field();
   if (field_.update(turned.reading, in_force_.correction(), accepted_)) adopt_what_is_better();
   if (!turned.turn) return;
   if (held_out_.update(turned.reading, *turned.turn, in_force_.correction(), accepted_)) adopt_what_is_better();
@@ -109,6 +110,11 @@ void Suite::adopt_what_is_better() {
 
 void Suite::adopt(Calibrator calibrator, const Correction& estimates) {
   in_force_.adopt(calibrator, estimates);
+  flags_[index_of(calibrator)].left = false;
+  if (calibrator == Calibrator::magnetometer) {
+    learnt_steps_ = estimators_.magnetometer().field_steps();
+    moved_ = {};
+  }
   on_change(calibrator);
 }
 
@@ -116,6 +122,7 @@ void Suite::on_change(Calibrator calibrator) {
   held_out_.on_change();
   field_.on_change();
   estimators_.on_in_force(calibrator, in_force_.correction());
+  if (row_of(calibrator).corrects == Corrects::field) forget_field();
   for (const Calibrator other : calibrators()) {
     // The other calibrator may have started anew.
     if (row_of(other).corrects == Corrects::offset) refresh_accepted(other);
@@ -156,6 +163,7 @@ std::string Suite::accept(Calibrator calibrator, bool force) {
 std::string Suite::roll_back(Calibrator calibrator) {
   if (!in_force_.roll_back(calibrator)) return "nothing to go back to";
   flags_[index_of(calibrator)].held = true;
+  flags_[index_of(calibrator)].left = false;
   on_change(calibrator);
   return {};
 }
@@ -165,6 +173,7 @@ std::string Suite::start(Calibrator calibrator) {
   estimators_.unit(calibrator).start();
   held_out_.forget(calibrator);
   if (row_of(calibrator).field_alone) field_.forget();
+  if (calibrator == Calibrator::magnetometer) forget_field();
   flags_[index_of(calibrator)].held = false;
   if (row_of(calibrator).clears_rose) rose_ = {};
   refresh_accepted(calibrator);
@@ -203,8 +212,11 @@ void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
     judgement.reason = "no reading of " + silent + " so far";
     judgement.manoeuvre.clear();
   } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 && gives_no_field()) {
-    judgement.reason = "the compass gives headings without the field that it measures";
-    judgement.manoeuvre.clear();
+    const auto& left_out = gate_.counts().left_out[static_cast<std::size_t>(Stream::compass)];
+    const bool too_large = left_out[static_cast<std::size_t>(Rejection::field_too_large)] > 0;
+    judgement.reason = too_large ? "the measured field is larger than the 500 uT that the Earth and a vehicle make"
+                                 : "the compass gives headings without the field that it measures";
+    judgement.manoeuvre = too_large ? "take magnets away from the compass, and check the unit of its field" : "";
   }
   const bool by_field = row_of(report.calibrator).field_alone && !comparison(report.calibrator).is_judged();
   const Comparison& held_out = by_field ? field_.comparison() : comparison(report.calibrator);
@@ -234,6 +246,8 @@ Report Suite::report() const {
     judge(one, report.in_force);
     one.estimate = unit.quantities();
     one.covariance = unit.covariance();
+    if (calibrator == Calibrator::magnetometer && one.verdict == Verdict::in_force)
+      one.step_std_uT = moved_.variance_uT2.cwiseSqrt();
     one.held = flags_[index_of(calibrator)].held;
     one.steps_back = in_force_.steps_back(calibrator);
   }
@@ -248,11 +262,12 @@ Report Suite::report() const {
 
 void Suite::archive(Archive& archive) {
   const auto all = calibrators();
-  const bool with_added = archive.tag_either("suite 3", "suite 4", all.size() > kNamedCalibrators);
+  const bool with_added = archive.tag_either("suite 5", "suite 6", all.size() > kNamedCalibrators);
   archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_);
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].held);
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].adopted);
-  archive(rose_, told_steps_);
+  for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].left);
+  archive(rose_, told_steps_, followed_steps_, learnt_steps_, moved_);
   if (!archive.saving()) {
     // A state that is older than a calibrator does not contain it, so that calibrator starts anew.
     for (const Calibrator calibrator : all.subspan(kNamedCalibrators)) {
@@ -274,7 +289,7 @@ void Suite::archive_added(Archive& archive) {
     if (!archive.ok()) return;
     if (index_of(calibrator) < kNamedCalibrators) return archive.fail();
     Flags& flags = flags_[index_of(calibrator)];
-    archive(flags.held, flags.adopted);
+    archive(flags.held, flags.adopted, flags.left);
     held_out_.archive_added(archive, calibrator);
     estimators_.unit(calibrator).archive(archive);
   }

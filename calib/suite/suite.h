@@ -20,6 +20,8 @@ namespace navcal::calib {
 /// The whole of the calibration: readings in; the active calibration and the reports on it out. Readings go
 /// through the Gate to all estimators. Their estimates run in shadow and are judged on held-out readings
 /// (HeldOut). They become active when they are accepted and better by the margin, or by the operator's order.
+/// When the field steps, the active calibration is moved by the step or leaves force, and what was learnt before
+/// judges nothing after it.
 /// The same calls in the same order give the same results to the last bit.
 class Suite {
  public:
@@ -57,10 +59,21 @@ class Suite {
   struct Flags {
     bool held = false;     ///< rolled back: only the operator brings it back
     bool adopted = false;  ///< not told yet
+    bool left = false;     ///< out of force since the last step of the field
   };
 
   void process(const Reading& reading);
   void take_turned();
+  /// Moves the hard iron in force by what has become known of the steps of the field since the last call.
+  void follow_field();
+  /// Deviations of another field leave force or come back, and what was learnt before judges nothing after. Null:
+  /// the last step was withdrawn.
+  void change_field(const FieldStep* step);
+  /// Takes a calibrator's value out of force at a step, or back when the step has gone.
+  void leave(Calibrator calibrator, const Correction& rest);
+  void come_back(Calibrator calibrator);
+  /// The magnetometer's calibrator begins anew, and the history of its field.
+  void forget_field();
   void judge(const TurnedReading& turned);
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
   /// The first instrument it takes that is configured and has said nothing; empty when all have.
@@ -94,6 +107,9 @@ class Suite {
   std::vector<Calibrator> judged_;
   HeadingHistogram rose_{};
   std::uint32_t told_steps_ = 0;
+  std::uint32_t followed_steps_ = 0;
+  std::uint32_t learnt_steps_ = 0;  ///< steps told before the hard iron in force was learnt
+  IronShift moved_;                 ///< by which it was moved since
 };
 
 }  // namespace navcal::calib

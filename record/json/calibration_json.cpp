@@ -44,6 +44,8 @@ Json calibrator_json(const calib::CalibratorReport& report, const calib::Correct
   json["estimate"] = values_json(report.estimate, &calib::Quantity::value);
   json["std"] = values_json(report.estimate, &calib::Quantity::std);
   json["in_force"] = correction_json(in_force, report.calibrator);
+  if (!report.step_std_uT.isZero(0))
+    json["in_force_step_std_uT"] = {report.step_std_uT.x(), report.step_std_uT.y(), report.step_std_uT.z()};
   json["held"] = report.held;
   json["steps_back"] = report.steps_back;
   return json;

@@ -112,6 +112,27 @@ TEST(Gate, ErrorCodesVoidWhatTheyConcern) {
   EXPECT_EQ(left_out(gate, Stream::compass, Rejection::field_out_of_range), 10U);
 }
 
+TEST(Gate, AFieldOver500MicroteslaIsCountedByItsNameAndTheTiltIsUsed) {
+  std::vector<Reading> readings;
+  for (int i = 0; i < 40; ++i) {
+    CompassReading reading = compass(i * 0.1, i * 0.01);
+    reading.roll_rad = 0.01 * i;
+    reading.field_body_uT = Eigen::Vector3d(20, i, i % 4 == 0 ? 600 : i % 4 == 1 ? -5000 : 499);
+    readings.emplace_back(reading);
+  }
+  Gate gate;
+  const auto out = through(gate, readings);
+  ASSERT_EQ(out.size(), readings.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto& reading = std::get<CompassReading>(out[i]);
+    EXPECT_EQ(reading.field_body_uT.has_value(), i % 4 > 1) << i;
+    EXPECT_TRUE(reading.roll_rad.has_value()) << i;
+  }
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::field_too_large), 20U);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::absurd), 0U);
+  EXPECT_EQ(name_of(Rejection::field_too_large), "field_too_large");
+}
+
 TEST(Gate, ALiveInstrumentIsNotFrozenByRepeatingItselfForLessThanASecond) {
   std::vector<Reading> readings;
   for (int i = 0; i < 100; ++i) readings.emplace_back(compass(i * 0.1, (i / 8) * 0.1));

@@ -95,6 +95,24 @@ TEST_P(SuiteRefusal, APlanarSwingSaysNothingOfTheVertical) {
   EXPECT_TRUE(vertical == nullptr || !std::isfinite(vertical->std)) << vertical->value << " +- " << vertical->std;
 }
 
+TEST(SuiteOfLargeFields, SaysThatTheFieldIsTooLarge) {
+  Suite suite({}, {.compass = true});
+  for (int i = 0; i < 300; ++i) {
+    CompassReading reading;
+    reading.time_s = 0.1 * i;
+    reading.heading_rad = 0.02 * i;
+    reading.field_body_uT = Eigen::Vector3d(18 * std::cos(0.02 * i), -18 * std::sin(0.02 * i), 840 + i % 7);
+    suite.put(reading);
+  }
+  suite.finish();
+  const Report report = suite.report();
+  const auto* const magnetometer = report.find(Calibrator::magnetometer);
+  ASSERT_NE(magnetometer, nullptr);
+  EXPECT_EQ(magnetometer->verdict, Verdict::refused);
+  EXPECT_NE(magnetometer->judgement.reason.find("larger than the 500 uT"), std::string::npos)
+      << magnetometer->judgement.reason;
+}
+
 INSTANTIATE_TEST_SUITE_P(Instruments, SuiteRefusal,
                          testing::Values(Asked{"compass", {true, false, false, false}},
                                          Asked{"compass_and_gyro", {true, true, false, false}}),
