@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/audit/audited_log.h"
+
+/// Errors of headings by calibrations that the judged readings had no part in.
+namespace navcal::analysis {
+
+struct IronErrors {
+  double worst_rad = 0;  ///< largest mean error of the uncalibrated heading in a sector of 30 degrees
+  /// Largest difference between the headings by the two halves' calibrations; nullopt where one has none.
+  std::optional<double> disagreement_rad;
+  /// Standard deviation over mean of the size of the field, as measured and by the calibration of the other half.
+  std::optional<double> spread_before, spread_after;
+};
+/// Of the field since its last step; `correction` is that of the whole log.
+[[nodiscard]] IronErrors iron_errors(const AuditedLog& log, const calib::FieldCorrection& correction);
+
+/// Largest change of the heading by the field of a current, for the headings of the log.
+[[nodiscard]] double motor_heading_rad(const AuditedLog& log, const calib::MotorCurrentCorrection& motor,
+                                       double current_A);
+
+struct HeadingErrors {
+  struct Point {
+    double time_s = 0, heading_rad = 0, error_rad = 0;
+  };
+  std::vector<Point> points;
+  double reference_std_rad = 0;  ///< of the calibrated heading, at its worst heading
+  bool is_absolute = false;      ///< false: the mean is left out
+};
+/// A stated heading less the heading of the calibrated field. nullopt where a half has no accepted calibration.
+[[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
+
+/// Angles between the fields of two ports at the times of the first, degrees. nullopt without common times.
+[[nodiscard]] std::optional<Series> angles_between(const AuditedLog& log, const std::string& first,
+                                                   const std::string& second);
+
+}  // namespace navcal::analysis
