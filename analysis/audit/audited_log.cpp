@@ -208,6 +208,7 @@ AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going
   const std::string file = readable(request, folder, log, keep_going);
   read_samples(log, file, request.window, keep_going);
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;
+  if (request.also && !log.is_partial) request.also(file);
   if (log.is_partial || log.compass.empty()) return log;
   calibrate(log, log.whole, file, request.window, keep_going, "calibrating");
   const auto halves = halves_of(log, request.window);

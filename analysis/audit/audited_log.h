@@ -24,6 +24,8 @@ struct AuditRequest {
   std::string file;
   ImportOptions import{};
   record::TimeWindow window{};
+  /// Called with the log or capture that is read, which may be a temporary one, for what other rooms look for.
+  std::function<void(const std::string& recording)> also{};
 };
 
 /// Samples of one kind from one port.
