@@ -41,25 +41,21 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
     motion.order_times_s.clear();
     motion.ordered_fins_rad.clear();
   }
+  const identify::ConventionCheck check = identify::check_conventions(layout, {std::move(motion)}, show);
   std::vector<analysis::Finding> findings;
-  for (const identify::Convention& convention :
-       identify::check_conventions(layout, {std::move(motion)}, show).found) {
+  for (const identify::Convention& convention : check.found) {
     constexpr double kSure = 0.99;
-    analysis::Finding finding;
+    analysis::Finding& finding = findings.emplace_back();
     finding.name = "convention." + convention.name;
+    finding.title = "Convention";
     finding.channel = convention.what;
     finding.certainty = convention.probability >= kSure ? analysis::Certainty::found : analysis::Certainty::likely;
     finding.sentence = fmt::format("{} (probability {:.3f})", convention.sentence, convention.probability);
-    finding.todo =
-        "Mend the unit, sign or frame where the log is written: docs/vehicles.md lists the conventions.";
-    findings.push_back(std::move(finding));
+    finding.todo = "Mend unit, sign or frame where the log is written: docs/vehicles.md lists the conventions.";
   }
   if (findings.empty()) {
-    analysis::Finding none;
-    none.name = "convention";
-    none.channel = "all";
+    analysis::Finding& none = findings.emplace_back(analysis::Finding{"convention", "Conventions", "all"});
     none.sentence = "Channels that can be compared agree in unit, sign and frame.";
-    findings.push_back(std::move(none));
   }
   return findings;
 }
@@ -94,7 +90,6 @@ void audit(const AuditArguments& arguments) {
     tell_remarks("navcal", found.files.back().remarks);
     if (base::Interruptible::interrupted()) break;
   }
-  analysis::compare(found);
   const std::string json = arguments.json.empty() ? std::string() : report::audit_json(found);
   if (!json.empty() && !json_only) write_result(arguments.json, json);
   print_answer(json_only ? json : report::audit_text(found));

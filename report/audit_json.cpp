@@ -14,7 +14,7 @@ AuditJson audit_number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? AuditJson(*value) : AuditJson(nullptr);
 }
 
-AuditJson finding_json(const analysis::Finding& finding) {
+AuditJson finding_json(const analysis::Finding& finding, const std::string& file) {
   return {{"name", finding.name},
           {"channel", finding.channel},
           {"value", audit_number(finding.value)},
@@ -25,21 +25,21 @@ AuditJson finding_json(const analysis::Finding& finding) {
            {{"heading_deg", audit_number(finding.heading_deg)},
             {"position_m_10min", audit_number(finding.position_m)}}},
           {"certainty", analysis::name_of(finding.certainty)},
+          {"title", finding.title},
           {"sentence", finding.sentence},
           {"todo", finding.todo},
-          {"file", finding.file}};
+          {"file", file}};
 }
 
 }  // namespace
 
 std::string audit_json(const analysis::Audit& audit) {
-  AuditJson json;
-  json["class"] = "AUDIT";
-  json["files"] = AuditJson::array();
-  json["findings"] = AuditJson::array();
-  json["nothing_found"] = audit.nothing_found();
-  json["clear"] = AuditJson::array();
-  json["changes"] = AuditJson::array();
+  AuditJson json{{"class", "AUDIT"},
+                 {"files", AuditJson::array()},
+                 {"findings", AuditJson::array()},
+                 {"nothing_found", audit.nothing_found()},
+                 {"clear", AuditJson::array()},
+                 {"changes", AuditJson::array()}};
   for (const analysis::AuditedFile& file : audit.files) {
     json["files"].push_back({{"file", file.file},
                              {"duration_s", file.duration_s},
@@ -48,15 +48,15 @@ std::string audit_json(const analysis::Audit& audit) {
                              {"remarks", file.remarks}});
     for (const analysis::Finding& finding : file.findings)
       json[finding.certainty == analysis::Certainty::nothing ? "clear" : "findings"].push_back(
-          finding_json(finding));
+          finding_json(finding, file.file));
   }
-  for (const analysis::AuditChange& change : audit.changes)
+  for (const analysis::AuditChange& change : audit.changes())
     json["changes"].push_back({{"name", change.name},
                                {"channel", change.channel},
-                               {"before", audit_number(change.before)},
-                               {"after", audit_number(change.after)},
-                               {"low", audit_number(change.low)},
-                               {"high", audit_number(change.high)},
+                               {"before", change.before},
+                               {"after", change.after},
+                               {"low", change.low},
+                               {"high", change.high},
                                {"unit", change.unit},
                                {"sentence", change.sentence},
                                {"file", change.file}});

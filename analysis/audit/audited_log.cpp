@@ -40,7 +40,15 @@ class AuditSink final : public ReplaySink {
     log_.duration_s = channels_.duration_s();
     log_.begin_utc_ns = channels_.begin_utc_ns();
     log_.channels = channels_.take_channels(settings_);
-    for (auto& [key, open] : streams_) log_.streams.push_back(std::move(open.stream));
+    for (auto& [key, open] : streams_) {
+      const auto& [port, kind] = key;
+      const auto kinds = std::count_if(streams_.begin(), streams_.end(),
+                                       [of = port](const auto& other) { return other.first.first == of; });
+      open.stream.kind = kind;
+      open.stream.channel = settings_.ports.at(port).name;
+      if (kinds > 1) open.stream.channel.append(".").append(kind);
+      log_.streams.push_back(std::move(open.stream));
+    }
     if (const auto compass = sources_.learnt().compass; compass && begin_ns_)
       log_.compass = settings_.ports.at(*compass).name;
   }
@@ -58,10 +66,6 @@ class AuditSink final : public ReplaySink {
     if constexpr (std::is_same_v<Value, instruments::GpsSample>) take_fix(value, port, time_s);
     if constexpr (!std::is_same_v<Value, instruments::SkySample>) {
       OpenStream& open = streams_[{port, instruments::kKind<Value>.name}];
-      if (open.stream.time_s.empty()) {
-        open.stream.port = settings_.ports.at(port).name;
-        open.stream.kind = instruments::kKind<Value>.name;
-      }
       if constexpr (std::is_same_v<Value, instruments::CompassSample>)
         compare(open, {value.field_body_uT, {}}, time_s);
       if constexpr (std::is_same_v<Value, instruments::ImuSample>)
@@ -177,6 +181,12 @@ const RecordedChannel* AuditedLog::find(std::string_view port, std::string_view 
   return found == channels.end() ? nullptr : &*found;
 }
 
+std::optional<double> AuditedLog::at(std::string_view port, std::string_view quantity, double time_s,
+                                     double most_apart_s) const {
+  const RecordedChannel* const channel = find(port, quantity);
+  return channel == nullptr ? std::nullopt : value_at(channel->series, time_s, most_apart_s);
+}
+
 std::vector<const RecordedChannel*> AuditedLog::all(std::string_view quantity) const {
   std::vector<const RecordedChannel*> found;
   for (const RecordedChannel& channel : channels) {
@@ -199,6 +209,16 @@ double AuditedLog::speed_m_s() const {
   const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
   std::nth_element(speeds.begin(), middle, speeds.end());
   return *middle;
+}
+
+std::optional<double> value_at(const Series& series, double time_s, double most_apart_s) {
+  const auto after = std::lower_bound(series.time_s.begin(), series.time_s.end(), time_s);
+  if (after == series.time_s.end()) return std::nullopt;
+  const auto i = static_cast<std::size_t>(after - series.time_s.begin());
+  if (*after == time_s) return series.values[i];
+  if (i == 0 || *after - series.time_s[i - 1] > most_apart_s) return std::nullopt;
+  const double share = (time_s - series.time_s[i - 1]) / (*after - series.time_s[i - 1]);
+  return series.values[i - 1] * (1 - share) + series.values[i] * share;
 }
 
 AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going) {

@@ -30,7 +30,7 @@ struct AuditRequest {
 
 /// Samples of one kind from one port.
 struct AuditedStream {
-  std::string port, kind;      ///< "imu", "compass"
+  std::string channel, kind;   ///< port, with the kind where it has several; "imu", "compass"
   std::vector<double> time_s;  ///< of validity, seconds from the first sample, in the order in which they came
   std::uint64_t vectors = 0;   ///< readings with three axes (field, rates, force), ...
   std::uint64_t repeated = 0;  ///< ... and of these the ones equal to the one before in every axis
@@ -69,11 +69,17 @@ struct AuditedLog {
   std::vector<std::string> remarks;
 
   [[nodiscard]] const RecordedChannel* find(std::string_view port, std::string_view quantity) const;
+  /// value_at() of a channel; nullopt where there is none.
+  [[nodiscard]] std::optional<double> at(std::string_view port, std::string_view quantity, double time_s,
+                                         double most_apart_s) const;
   /// Channels of this quantity, one for each port that has it.
   [[nodiscard]] std::vector<const RecordedChannel*> all(std::string_view quantity) const;
   /// Typical speed under way by receiver or Doppler log; 1 m/s where neither tells.
   [[nodiscard]] double speed_m_s() const;
 };
+
+/// Linear between the readings on both sides of a time; nullopt where there are none, or they are too far apart.
+[[nodiscard]] std::optional<double> value_at(const Series& series, double time_s, double most_apart_s);
 
 /// Called with the part of the work and its share, 0 to 1. False ends the reading; what was read counts.
 using KeepGoing = std::function<bool(std::string_view part, double share)>;

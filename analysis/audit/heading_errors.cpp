@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/audit/bounded.h"
 #include "base/angles.h"
+#include "base/durations.h"
 
 namespace navcal::analysis {
 namespace {
@@ -52,16 +52,6 @@ double spread_of(const std::vector<double>& sizes) {
   const double mean = sum / static_cast<double>(sizes.size());
   for (const double size : sizes) squares += (size - mean) * (size - mean);
   return std::sqrt(squares / static_cast<double>(sizes.size())) / mean;
-}
-
-std::optional<double> value_at(const Series& series, double time_s, double most_apart_s) {
-  const auto after = std::lower_bound(series.time_s.begin(), series.time_s.end(), time_s);
-  if (after == series.time_s.begin() || after == series.time_s.end()) return std::nullopt;
-  const auto i = static_cast<std::size_t>(after - series.time_s.begin());
-  const double from_s = series.time_s[i - 1], to_s = series.time_s[i];
-  if (to_s - from_s > most_apart_s || !(to_s > from_s)) return std::nullopt;
-  const double share = (time_s - from_s) / (to_s - from_s);
-  return series.values[i - 1] * (1 - share) + series.values[i] * share;
 }
 
 constexpr double kMostApart_s = 0.5;
@@ -127,56 +117,48 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   errors.is_absolute =
       is_own || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
   const double declination_rad = is_own || !log.earth ? 0 : log.earth->declination_rad;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (std::size_t half = 0; half < 2; ++half) {
     const auto* const report = log.halves.at(half).report.find(Calibrator::magnetometer);
     if (const auto* std = report->quantity("worst_heading_rad"); std != nullptr)
       errors.reference_std_rad = std::max(errors.reference_std_rad, std->std);
     for (const TiltedField& field : tilted_fields(log.halves.at(half).samples, 0)) {
-      const double time_s = static_cast<double>(field.utc_ns - log.begin_utc_ns) * 1e-9;
+      const double time_s = base::seconds(field.utc_ns - log.begin_utc_ns);
       const auto stated_deg = value_at(heading.series, time_s, kMostApart_s);
       if (!stated_deg) continue;
       const double reference_rad = field.heading_rad(*halves.at(1 - half)) + declination_rad;
-      errors.points.push_back({time_s, base::positive_angle(reference_rad),
-                               base::wrapped(*stated_deg * base::kRadiansPerDegree - reference_rad)});
+      const double error_rad = base::wrapped(*stated_deg * base::kRadiansPerDegree - reference_rad);
+      sum += Eigen::Vector2d(std::cos(error_rad), std::sin(error_rad));
+      errors.time_s.push_back(time_s);
+      errors.heading_deg.push_back(base::positive_angle(reference_rad) * base::kDegreesPerRadian);
+      errors.error_deg.push_back(error_rad * base::kDegreesPerRadian);
     }
   }
-  if (errors.points.empty()) return std::nullopt;
-  if (errors.is_absolute) return errors;
-  double sine = 0, cosine = 0;
-  for (const auto& point : errors.points) {
-    sine += std::sin(point.error_rad);
-    cosine += std::cos(point.error_rad);
-  }
-  const double mean_rad = std::atan2(sine, cosine);
-  for (auto& point : errors.points) point.error_rad = base::wrapped(point.error_rad - mean_rad);
+  const double mean_deg = errors.is_absolute ? 0 : std::atan2(sum.y(), sum.x()) * base::kDegreesPerRadian;
+  for (double& error_deg : errors.error_deg) error_deg = std::remainder(error_deg - mean_deg, 360.0);
   return errors;
 }
 
-std::optional<Series> angles_between(const AuditedLog& log, const std::string& first, const std::string& second) {
+Series angles_between(const AuditedLog& log, const std::string& first, const std::string& second) {
   constexpr std::array kAxes{"field_x", "field_y", "field_z"};
-  std::array<const RecordedChannel*, 3> of_first{}, of_second{};
-  for (std::size_t i = 0; i < kAxes.size(); ++i) {
-    of_first.at(i) = log.find(first, kAxes.at(i));
-    of_second.at(i) = log.find(second, kAxes.at(i));
-    if (of_first.at(i) == nullptr || of_second.at(i) == nullptr) return std::nullopt;
-  }
   Series angles;
-  const Series& times = of_first[0]->series;
-  for (std::size_t k = 0; k < times.time_s.size(); ++k) {
-    Eigen::Vector3d a, b;
-    bool known = true;
-    for (std::size_t i = 0; i < kAxes.size() && known; ++i) {
-      const auto other = value_at(of_second.at(i)->series, times.time_s[k], kMostApart_s);
-      known = other && k < of_first.at(i)->series.values.size();
-      if (!known) break;
-      a[static_cast<Eigen::Index>(i)] = of_first.at(i)->series.values[k];
-      b[static_cast<Eigen::Index>(i)] = *other;
+  const RecordedChannel* const times = log.find(first, kAxes[0]);
+  for (std::size_t k = 0; times != nullptr && k < times->series.time_s.size(); ++k) {
+    const double time_s = times->series.time_s[k];
+    Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
+    bool is_known = true;
+    for (std::size_t i = 0; i < kAxes.size() && is_known; ++i) {
+      const auto one = log.at(first, kAxes.at(i), time_s, kMostApart_s);
+      const auto other = log.at(second, kAxes.at(i), time_s, kMostApart_s);
+      is_known = one && other;
+      a[static_cast<Eigen::Index>(i)] = one.value_or(0);
+      b[static_cast<Eigen::Index>(i)] = other.value_or(0);
     }
-    if (!known || a.norm() == 0 || b.norm() == 0) continue;
-    angles.time_s.push_back(times.time_s[k]);
+    if (!is_known || a.norm() == 0 || b.norm() == 0) continue;
+    angles.time_s.push_back(time_s);
     angles.values.push_back(std::atan2(a.cross(b).norm(), a.dot(b)) * base::kDegreesPerRadian);
   }
-  return angles.values.empty() ? std::nullopt : std::optional(angles);
+  return angles;
 }
 
 }  // namespace navcal::analysis

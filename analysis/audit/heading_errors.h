@@ -24,19 +24,16 @@ struct IronErrors {
 [[nodiscard]] double motor_heading_rad(const AuditedLog& log, const calib::MotorCurrentCorrection& motor,
                                        double current_A);
 
+/// A stated heading less the heading of the calibrated field.
 struct HeadingErrors {
-  struct Point {
-    double time_s = 0, heading_rad = 0, error_rad = 0;
-  };
-  std::vector<Point> points;
+  std::vector<double> time_s, heading_deg, error_deg;
   double reference_std_rad = 0;  ///< of the calibrated heading, at its worst heading
   bool is_absolute = false;      ///< false: the mean is left out
 };
-/// A stated heading less the heading of the calibrated field. nullopt where a half has no accepted calibration.
+/// nullopt where a half has no accepted calibration, or the field stepped.
 [[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
 
-/// Angles between the fields of two ports at the times of the first, degrees. nullopt without common times.
-[[nodiscard]] std::optional<Series> angles_between(const AuditedLog& log, const std::string& first,
-                                                   const std::string& second);
+/// Angles between the fields of two ports at the times of the first, degrees. Empty without common times.
+[[nodiscard]] Series angles_between(const AuditedLog& log, const std::string& first, const std::string& second);
 
 }  // namespace navcal::analysis

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/audit/findings.h"
+#include "analysis/audit/audit.h"
 #include "base/angles.h"
 
 namespace navcal::analysis {
@@ -15,225 +15,199 @@ using base::kDegreesPerRadian;
 using calib::Calibrator;
 
 constexpr double kLeastBias_deg_s = 0.02;  ///< 12 degrees in ten minutes
-constexpr double kLeastScale = 0.02;
+constexpr double kLeastScale = 0.02, kTurn_deg = 90;
+constexpr double kSome_m_s2 = 30, kMuch_m_s2 = 60;  ///< vibration at which ArduPilot warns, and at which it fails
 
-/// Bias and scale of the vertical gyro, as the compass's turns show them.
-void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator) {
+/// A bias whose interval leaves out small ones. The cost is that of a heading by this gyro alone.
+void judge_bias(Finding& finding, const Bounded& bias, bool is_confirmed, bool is_vertical,
+                const AuditedLog& log) {
+  finding.put(bias, "deg/s");
+  const double least = std::min(std::abs(bias.low), std::abs(bias.high));
+  if (!is_confirmed || bias.low * bias.high < 0 || least < kLeastBias_deg_s) return;
+  finding.certainty = Certainty::found;
+  finding.todo = "Calibrate the gyro at rest before each mission.";
+  if (!is_vertical) return;
+  finding.put_heading(std::min(std::abs(bias.value) * kCostTime_s / 2, 180.0), log.speed_m_s());
+  finding.sentence += " The cost is that of a heading by this gyro alone.";
+}
+
+/// Bias and scale of a vertical gyro, as the turns of the compass show them.
+void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator,
+                   const char* quantity) {
   const auto* const report = log.whole.report.find(calibrator);
-  const auto rates = log.all("rate_z");
+  const auto rates = log.all(quantity);
   if (report == nullptr || rates.empty()) return;
-  if (calibrator == Calibrator::gyro_b && log.all("yaw_rate_b").empty()) return;
-  const std::string channel = rates.front()->port + (calibrator == Calibrator::gyro_b ? ".yaw_rate_b" : ".rate_z");
+  Finding of_bias{"gyro.bias", "Bias of the gyro", rates.front()->name()};
+  Finding of_scale{"gyro.scale", "Scale of the gyro", rates.front()->name()};
   const calib::Quantity *const bias = report->quantity("bias_rad_s"), *const scale = report->quantity("scale");
-  if (!report->judgement.accepted || bias == nullptr || scale == nullptr)
-    return findings.push_back(refused(finding_of("gyro.bias", channel), *report));
   const auto& judgement = report->judgement;
-  const bool confirmed = report->outcome == calib::Outcome::accepted &&
-                         judgement.held_out_quantity == calib::HeldOutQuantity::heading;
+  if (!judgement.accepted || bias == nullptr || scale == nullptr)
+    return findings.push_back(refused(of_bias, *report));
+  const bool is_confirmed = report->outcome == calib::Outcome::accepted &&
+                            judgement.held_out_quantity == calib::HeldOutQuantity::heading &&
+                            judgement.held_out_after < judgement.held_out_before;
   const std::string held_out =
-      confirmed ? fmt::format(
-                      " On held-out readings the turn is off the compass's by {:.2f} deg as measured and by "
-                      "{:.2f} deg corrected.",
-                      judgement.held_out_before * kDegreesPerRadian, judgement.held_out_after * kDegreesPerRadian)
-                : std::string();
-  // A correction adds the bias; what the gyro shows at rest is its negative over the scale.
+      is_confirmed
+          ? fmt::format(
+                " On held-out readings heading and turn differ by {:.2f} deg as measured and by {:.2f} "
+                "deg corrected.",
+                judgement.held_out_before * kDegreesPerRadian, judgement.held_out_after * kDegreesPerRadian)
+          : std::string();
+  // True rate = scale * measured + bias: at rest the gyro shows -bias / scale.
   const double rest_deg_s = -bias->value / scale->value * kDegreesPerRadian;
-  const Bounded at_rest = bounded(rest_deg_s, bias->std * kDegreesPerRadian);
-  Finding of_bias = finding_of("gyro.bias", channel);
-  put_value(of_bias, at_rest, "deg/s");
   of_bias.sentence =
-      fmt::format("The gyro shows {:.4f} deg/s ({:.4f} to {:.4f}) when the vehicle does not turn.{}",
-                  at_rest.value, at_rest.low, at_rest.high, held_out);
-  const double least_deg_s = std::min(std::abs(at_rest.low), std::abs(at_rest.high));
-  if (confirmed && at_rest.low * at_rest.high > 0 && least_deg_s > kLeastBias_deg_s) {
-    of_bias.certainty = Certainty::found;
-    of_bias.todo =
-        fmt::format("Subtract {:.4f} deg/s, or calibrate the gyro at rest before each mission.", at_rest.value);
-    // Mean over ten minutes of a heading that runs away; an estimator with a compass sees less.
-    put_heading_cost(of_bias, log, std::min(std::abs(at_rest.value) * kCostTime_s / 2, 180.0));
-    of_bias.sentence += " The cost is that of a heading by this gyro alone.";
-  }
-  findings.push_back(std::move(of_bias));
-  Finding of_scale = finding_of("gyro.scale", channel);
-  put_value(of_scale, bounded(scale->value, scale->std), "");
-  of_scale.sentence = fmt::format("True rate over measured rate: {:.4f} ({:.4f} to {:.4f}).{}", scale->value,
-                                  *of_scale.low, *of_scale.high, held_out);
-  if (confirmed && (*of_scale.low > 1 + kLeastScale || *of_scale.high < 1 - kLeastScale)) {
+      fmt::format("The gyro shows {:.4f} deg/s when the vehicle does not turn.{}", rest_deg_s, held_out);
+  judge_bias(of_bias, bounded(rest_deg_s, bias->std * kDegreesPerRadian), is_confirmed, true, log);
+  of_scale.put(bounded(scale->value, scale->std), "");
+  of_scale.sentence = fmt::format("True rate over measured rate is {:.4f}.{}", scale->value, held_out);
+  if (is_confirmed && (*of_scale.low > 1 + kLeastScale || *of_scale.high < 1 - kLeastScale)) {
     of_scale.certainty = Certainty::found;
     of_scale.todo = "Multiply the rate by this number.";
-    put_heading_cost(of_scale, log, 90 * std::abs(scale->value - 1));
-    of_scale.sentence += " The cost is that of a turn of 90 deg.";
+    of_scale.put_heading(kTurn_deg * std::abs(scale->value - 1), log.speed_m_s());
+    of_scale.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg.", kTurn_deg);
   }
+  findings.push_back(std::move(of_bias));
   findings.push_back(std::move(of_scale));
 }
 
-/// Bias by the parts at rest, each of them one number.
-void append_at_rest(std::vector<Finding>& findings, const AuditedLog& log) {
-  for (const std::string axis : {"rate_x", "rate_y", "rate_z"}) {
-    for (const RecordedChannel* channel : log.all(axis)) {
-      Finding finding = finding_of("gyro.rest", channel->name());
-      std::vector<double> means;
-      for (const Interval& interval : log.rest) {
-        const double third_s = interval.length_s() / 3;
-        for (int part = 0; part < 3; ++part) {
-          const double from_s = interval.from_s + part * third_s;
-          double sum = 0;
-          std::size_t count = 0;
-          for (std::size_t i = 0; i < channel->series.values.size(); ++i) {
-            const double time_s = channel->series.time_s[i];
-            if (time_s < from_s || time_s >= from_s + third_s) continue;
-            sum += channel->series.values[i];
-            ++count;
-          }
-          if (count > 0) means.push_back(sum / static_cast<double>(count));
-        }
+/// Means of a channel over thirds of the parts at rest.
+std::vector<double> means_at_rest(const AuditedLog& log, const Series& series) {
+  std::vector<double> means;
+  for (const Interval& interval : log.rest) {
+    for (int part = 0; part < 3; ++part) {
+      const double from_s = interval.from_s + part * interval.length_s() / 3,
+                   to_s = from_s + interval.length_s() / 3;
+      double sum = 0, count = 0;
+      for (std::size_t i = 0; i < series.values.size(); ++i) {
+        if (series.time_s[i] < from_s || series.time_s[i] >= to_s) continue;
+        sum += series.values[i];
+        ++count;
       }
-      const auto bias = mean_bounded(means);
-      if (!bias) {
+      if (count > 0) means.push_back(sum / count);
+    }
+  }
+  return means;
+}
+
+void append_at_rest(std::vector<Finding>& findings, const AuditedLog& log) {
+  for (const char* axis : {"rate_x", "rate_y", "rate_z"}) {
+    for (const RecordedChannel* channel : log.all(axis)) {
+      Finding& finding = findings.emplace_back(Finding{"gyro.rest", "Bias of the gyro at rest", channel->name()});
+      if (const auto bias = mean_bounded(means_at_rest(log, channel->series))) {
+        finding.sentence = fmt::format("At rest it shows {:.4f} deg/s.", bias->value);
+        judge_bias(finding, *bias, true, channel->quantity == "rate_z", log);
+      } else {
         finding.certainty = Certainty::cannot_say;
         finding.sentence = "The vehicle was not at rest twice, for ten seconds each.";
         finding.todo = "Leave the vehicle still for half a minute before and after the mission.";
-        findings.push_back(std::move(finding));
-        continue;
       }
-      put_value(finding, *bias, "deg/s");
-      finding.sentence = fmt::format("At rest it shows {:.4f} deg/s ({:.4f} to {:.4f}), over {} parts of the log.",
-                                     bias->value, bias->low, bias->high, means.size());
-      const double least_deg_s = std::min(std::abs(bias->low), std::abs(bias->high));
-      if (bias->low * bias->high > 0 && least_deg_s > kLeastBias_deg_s) {
-        finding.certainty = Certainty::found;
-        finding.todo = "Calibrate the gyro at rest before each mission.";
-        if (axis == "rate_z")
-          put_heading_cost(finding, log, std::min(std::abs(bias->value) * kCostTime_s / 2, 180.0));
-      }
-      findings.push_back(std::move(finding));
     }
   }
 }
 
-/// The largest values, if they stand at a limit: as often as never by noise.
-std::optional<double> clipping_limit(const std::vector<double>& values, std::size_t& clipped) {
+/// Standard deviation about the mean of each second; of one second in twenty it is larger.
+double vibration_of(const Series& series) {
+  constexpr std::size_t kFewest = 5;
+  std::vector<double> deviations;
+  for (std::size_t begin = 0, end = 0; begin < series.values.size(); begin = end) {
+    double sum = 0, squares = 0;
+    for (end = begin; end < series.values.size() && series.time_s[end] < series.time_s[begin] + 1; ++end)
+      sum += series.values[end];
+    const auto count = static_cast<double>(end - begin);
+    for (std::size_t i = begin; i < end; ++i) squares += std::pow(series.values[i] - sum / count, 2);
+    if (end - begin >= kFewest) deviations.push_back(std::sqrt(squares / count));
+  }
+  return quantile(deviations, 0.95);
+}
+
+/// Number of values at a limit of at least 18 m/s2, and that limit. A limit gathers readings; below a mere maximum
+/// are more than at it.
+std::pair<std::size_t, double> clipped(const std::vector<double>& values) {
   constexpr std::size_t kFewest = 5;
   constexpr double kLeast_m_s2 = 18, kSame = 1e-3;
   double most = 0;
   for (const double value : values) most = std::max(most, std::abs(value));
-  std::size_t beside = 0;
-  clipped = 0;
-  for (const double value : values) {
-    const double size = std::abs(value);
-    if (size >= most * (1 - kSame))
-      ++clipped;
-    else if (size >= most * (1 - 10 * kSame))
-      ++beside;
-  }
-  // A limit gathers readings; a mere maximum has more of them in the wider band just below.
-  if (most < kLeast_m_s2 || clipped < kFewest || clipped < 2 * beside) return std::nullopt;
-  return most;
+  const auto beyond = [&](double share) {
+    return std::count_if(values.begin(), values.end(),
+                         [&](double value) { return std::abs(value) >= most * share; });
+  };
+  const auto at_limit = static_cast<std::size_t>(beyond(1 - kSame));
+  const auto beside = static_cast<std::size_t>(beyond(1 - 10 * kSame)) - at_limit;
+  return {most < kLeast_m_s2 || at_limit < kFewest || at_limit < 2 * beside ? 0 : at_limit, most};
 }
 
 void append_forces(std::vector<Finding>& findings, const AuditedLog& log) {
-  constexpr double kMuch_m_s2 = 60, kSome_m_s2 = 30;  // where ArduPilot expects trouble, and where it may come
   for (const RecordedChannel* first : log.all("force_x")) {
-    Finding vibration = finding_of("force.vibration", first->port),
-            clipping = finding_of("force.clipping", first->port);
+    Finding vibration{"force.vibration", "Vibration", first->port},
+        clipping{"force.clipping", "Clipped forces", first->port};
     double worst_m_s2 = 0;
-    std::string worst_axis;
     for (const char* axis : {"force_x", "force_y", "force_z"}) {
       const RecordedChannel* const channel = log.find(first->port, axis);
       if (channel == nullptr) continue;
-      const auto& [time_s, values] = channel->series;
-      // Standard deviation about the mean of each second.
-      std::vector<double> deviations;
-      for (std::size_t begin = 0; begin < values.size();) {
-        std::size_t end = begin;
-        double sum = 0, squares = 0;
-        for (; end < values.size() && time_s[end] < time_s[begin] + 1 && time_s[end] >= time_s[begin]; ++end)
-          sum += values[end];
-        if (end == begin) ++end;
-        const double mean = sum / static_cast<double>(end - begin);
-        for (std::size_t i = begin; i < end; ++i) squares += (values[i] - mean) * (values[i] - mean);
-        if (end - begin >= 5) deviations.push_back(std::sqrt(squares / static_cast<double>(end - begin)));
-        begin = end;
-      }
-      if (const double deviation = quantile(deviations, 0.95); deviation >= worst_m_s2) {
-        worst_m_s2 = deviation;
-        worst_axis = axis;
-      }
-      std::size_t clipped = 0;
-      const auto limit = clipping_limit(values, clipped);
-      if (!limit) continue;
-      const double share = 100 * static_cast<double>(clipped) / static_cast<double>(values.size());
+      worst_m_s2 = std::max(worst_m_s2, vibration_of(channel->series));
+      const auto [count, limit] = clipped(channel->series.values);
+      if (count == 0) continue;
       clipping.certainty = Certainty::found;
-      put_value(clipping, {share, share, share}, "%");
+      clipping.put_count(100 * static_cast<double>(count) / static_cast<double>(channel->series.values.size()),
+                         "%");
       clipping.sentence +=
-          fmt::format("{} readings of {} stand at {:.1f} m/s2, the end of its range. ", clipped, axis, *limit);
+          fmt::format("{} readings of {} stand at {:.1f} m/s2, the end of its range. ", count, axis, limit);
       clipping.todo = "Widen the range of the accelerometer, or mount it softer.";
     }
-    if (worst_axis.empty()) continue;
-    put_value(vibration, {worst_m_s2, worst_m_s2, worst_m_s2}, "m/s2");
-    vibration.sentence = fmt::format("In one second of twenty {} varies by {:.2f} m/s2 or more about its mean.",
-                                     worst_axis, worst_m_s2);
+    vibration.put_count(worst_m_s2, "m/s2");
+    vibration.sentence = fmt::format(
+        "In one second of twenty the worst axis varies by {:.2f} m/s2 or more about its mean.", worst_m_s2);
     if (worst_m_s2 > kSome_m_s2) {
       vibration.certainty = worst_m_s2 > kMuch_m_s2 ? Certainty::found : Certainty::likely;
       vibration.todo = "Balance the propellers and mount the unit softer.";
     }
-    if (clipping.sentence.empty()) clipping.sentence = "No reading stands at an end of the range.";
+    if (clipping.sentence.empty()) clipping.sentence = "No readings gather at an end of the range.";
     findings.push_back(std::move(vibration));
     findings.push_back(std::move(clipping));
   }
+}
+
+/// A delay that a calibrator finds. Each half of the log is judged for itself, too: what they differ by is part of
+/// the interval.
+void append_delay(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator, Finding finding,
+                  const char* words, double least_s) {
+  constexpr double kRate_deg_s = 20;
+  const auto* const report = log.whole.report.find(calibrator);
+  if (report == nullptr) return;
+  const calib::Quantity* const value = report->quantity("delay_s");
+  if (!report->judgement.accepted || value == nullptr) return findings.push_back(refused(finding, *report));
+  double half_s = 1.96 * value->std;
+  bool are_both = true;
+  for (const AuditedCalibration& half : log.halves) {
+    const auto* const of_half = half.report.find(calibrator);
+    const calib::Quantity* const other = of_half == nullptr ? nullptr : of_half->quantity("delay_s");
+    are_both = are_both && other != nullptr && of_half->judgement.accepted;
+    if (other != nullptr) half_s = std::max(half_s, std::abs(other->value - value->value));
+  }
+  finding.put({value->value, value->value - half_s, value->value + half_s}, "s");
+  finding.sentence = fmt::format("The {} by {:.0f} ms{}.", words, 1000 * value->value,
+                                 are_both ? ", which each half of the log confirms" : "");
+  if (*finding.low > least_s || *finding.high < -least_s) {
+    finding.certainty = are_both ? Certainty::found : Certainty::likely;
+    finding.todo = "Give the later sensor its latency in the configuration of the estimator.";
+    finding.put_heading(std::abs(value->value) * kRate_deg_s, log.speed_m_s());
+    finding.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg/s.", kRate_deg_s);
+  }
+  findings.push_back(std::move(finding));
 }
 
 }  // namespace
 
 std::vector<Finding> inertial_findings(const AuditedLog& log) {
   std::vector<Finding> findings;
-  append_turned(findings, log, Calibrator::gyro);
-  append_turned(findings, log, Calibrator::gyro_b);
+  append_turned(findings, log, Calibrator::gyro, "rate_z");
+  append_turned(findings, log, Calibrator::gyro_b, "yaw_rate_b");
   append_at_rest(findings, log);
   append_forces(findings, log);
-  return findings;
-}
-
-std::vector<Finding> delay_findings(const AuditedLog& log) {
-  struct Delay {
-    Calibrator calibrator;
-    std::string name, of, against;
-    double least_s;
-  };
-  const std::array delays{Delay{Calibrator::compass_delay, "delay.compass", "compass", "gyro", 0.05},
-                          Delay{Calibrator::course_delay, "delay.course", "course over ground", "heading", 0.3}};
-  std::vector<Finding> findings;
-  for (const Delay& delay : delays) {
-    const auto* const report = log.whole.report.find(delay.calibrator);
-    if (report == nullptr) continue;
-    Finding finding = finding_of(delay.name, log.compass);
-    const calib::Quantity* const value = report->quantity("delay_s");
-    if (!report->judgement.accepted || value == nullptr) {
-      findings.push_back(refused(finding, *report));
-      continue;
-    }
-    // Each half for itself: their difference is part of the interval.
-    double half_s = 1.96 * value->std;
-    bool both = true;
-    for (const AuditedCalibration& half : log.halves) {
-      const auto* const of_half = half.report.find(delay.calibrator);
-      const calib::Quantity* const other = of_half == nullptr ? nullptr : of_half->quantity("delay_s");
-      both = both && other != nullptr && of_half->judgement.accepted;
-      if (other != nullptr) half_s = std::max(half_s, std::abs(other->value - value->value));
-    }
-    put_value(finding, {value->value, value->value - half_s, value->value + half_s}, "s");
-    finding.sentence = fmt::format("The {} is {:.0f} ms ({:.0f} to {:.0f}) later than the {}{}.", delay.of,
-                                   1000 * value->value, 1000 * *finding.low, 1000 * *finding.high, delay.against,
-                                   both ? ", each half of the log judged for itself" : "");
-    if (*finding.low > delay.least_s || *finding.high < -delay.least_s) {
-      constexpr double kTurn_deg_s = 20;
-      finding.certainty = both ? Certainty::found : Certainty::likely;
-      finding.todo = "Give the later sensor its latency in the configuration of the estimator.";
-      put_heading_cost(finding, log, std::abs(value->value) * kTurn_deg_s);
-      finding.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg/s.", kTurn_deg_s);
-    }
-    findings.push_back(std::move(finding));
-  }
+  append_delay(findings, log, Calibrator::compass_delay, {"delay.compass", "Delay of the compass", log.compass},
+               "compass is later than the gyro", 0.05);
+  append_delay(findings, log, Calibrator::course_delay, {"delay.course", "Delay of the receiver", log.compass},
+               "course over ground is later than the heading", 0.3);
   return findings;
 }
 

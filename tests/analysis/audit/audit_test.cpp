@@ -8,7 +8,6 @@
 #include <random>
 
 #include "analysis/audit/bounded.h"
-#include "analysis/audit/findings.h"
 
 namespace navcal::analysis {
 namespace {
@@ -27,7 +26,7 @@ std::vector<double> times(std::size_t count, double period_s) {
 
 AuditedStream stream(std::vector<double> time_s, const std::string& kind = "imu") {
   AuditedStream made;
-  made.port = kind;
+  made.channel = kind;
   made.kind = kind;
   made.time_s = std::move(time_s);
   return made;
@@ -218,27 +217,33 @@ TEST(Audit, TwoCompassesThatPointApart) {
 }
 
 Finding valued(const std::string& name, double value, double half) {
-  Finding finding = finding_of(name, "imu");
-  put_value(finding, {value, value - half, value + half}, "deg");
+  Finding finding{name, name, "imu"};
+  finding.put({value, value - half, value + half}, "deg");
   return finding;
 }
 
+std::vector<AuditChange> changes(const Finding& before, const Finding& after) {
+  Audit audit;
+  audit.files.resize(2);
+  audit.files[0].findings = {before};
+  audit.files[1].findings = {after};
+  return audit.changes();
+}
+
 TEST(Audit, ChangesAreTellingBeyondBothIntervalsOnly) {
-  const auto same = changes_between({valued("a", 1, 0.5)}, {valued("a", 1.6, 0.5)});
-  EXPECT_TRUE(same.empty());
-  const auto other = changes_between({valued("a", 1, 0.5)}, {valued("a", 2, 0.5)});
+  EXPECT_TRUE(changes(valued("a", 1, 0.5), valued("a", 1.6, 0.5)).empty());
+  const auto other = changes(valued("a", 1, 0.5), valued("a", 2, 0.5));
   ASSERT_EQ(other.size(), 1U);
   EXPECT_NEAR(other[0].low, 1 - std::sqrt(0.5), 1e-9);
-  EXPECT_TRUE(changes_between({valued("a", 1, 0)}, {valued("a", 2, 0)}).empty());
-  EXPECT_TRUE(changes_between({valued("a", 1, 0.1)}, {valued("b", 2, 0.1)}).empty());
+  EXPECT_TRUE(changes(valued("a", 1, 0), valued("a", 2, 0)).empty());
+  EXPECT_TRUE(changes(valued("a", 1, 0.1), valued("b", 2, 0.1)).empty());
 }
 
 TEST(Audit, TheMostCostlyComesFirst) {
-  AuditedLog log;
   std::vector<Finding> findings{valued("nothing", 1, 0.1), valued("cheap", 1, 0.1), valued("dear", 1, 0.1)};
   findings[1].certainty = findings[2].certainty = Certainty::found;
-  put_heading_cost(findings[1], log, 1);
-  put_heading_cost(findings[2], log, 20);
+  findings[1].put_heading(1, 1);
+  findings[2].put_heading(20, 1);
   sort_findings(findings);
   EXPECT_EQ(findings[0].name, "dear");
   EXPECT_EQ(findings[2].name, "nothing");
