@@ -8,7 +8,7 @@
 namespace navcal::analysis {
 namespace {
 
-constexpr std::size_t kBlocks = 10, kLeastBlocks = 4;
+constexpr std::size_t kMeans = 10, kFewestMeans = 4;
 constexpr double kNormal = 1.96;
 
 /// The 97.5 % point of Student's t, within 1 % from 3 degrees of freedom on.
@@ -19,7 +19,7 @@ double student(double freedom) { return kNormal + 2.4 / freedom + 3.5 / (freedom
 Bounded bounded(double value, double std) { return {value, value - kNormal * std, value + kNormal * std}; }
 
 std::optional<Bounded> mean_bounded(const std::vector<double>& numbers) {
-  if (numbers.size() < kLeastBlocks) return std::nullopt;
+  if (numbers.size() < kFewestMeans) return std::nullopt;
   const auto count = static_cast<double>(numbers.size());
   double sum = 0, squares = 0;
   for (const double number : numbers) sum += number;
@@ -34,16 +34,16 @@ std::vector<double> block_means(const std::vector<double>& time_s, const std::ve
   std::vector<double> means;
   if (time_s.empty()) return means;
   const auto [first, last] = std::minmax_element(time_s.begin(), time_s.end());
-  const double length_s = (*last - *first) / static_cast<double>(kBlocks);
-  std::vector<double> sums(kBlocks);
-  std::vector<std::size_t> counts(kBlocks);
+  const double length_s = (*last - *first) / static_cast<double>(kMeans);
+  std::vector<double> sums(kMeans);
+  std::vector<std::size_t> counts(kMeans);
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const double place = length_s > 0 ? (time_s[i] - *first) / length_s : 0;
-    const std::size_t block = std::min(static_cast<std::size_t>(place), kBlocks - 1);
+    const std::size_t block = std::min(static_cast<std::size_t>(place), kMeans - 1);
     sums[block] += values[i];
     ++counts[block];
   }
-  for (std::size_t i = 0; i < kBlocks; ++i) {
+  for (std::size_t i = 0; i < kMeans; ++i) {
     if (counts[i] >= least) means.push_back(sums[i] / static_cast<double>(counts[i]));
   }
   return means;

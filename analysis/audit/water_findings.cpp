@@ -10,7 +10,7 @@ namespace navcal::analysis {
 namespace {
 
 constexpr double kLeastDepth_m = 0.5, kFarFix_m = 25, kJumpSigmas = 6, kLongestStep_s = 5, kZeros_pc = 1;
-constexpr double kLeastSpeed_m_s = 0.5, kLeastScale = 0.02, kApart_s = 2;
+constexpr double kLeastSpeed_m_s = 0.5, kLeastRatio = 0.02, kApart_s = 2;
 constexpr std::size_t kFewestFixes = 20;
 
 /// Depth while a receiver has a fix: its antenna is out of the water then.
@@ -127,7 +127,7 @@ Finding doppler_scale(const AuditedLog& log, const std::string& port) {
   }
   finding.put({std::exp(mean->value), std::exp(mean->low), std::exp(mean->high)}, "");
   finding.sentence = fmt::format("Speed of the receiver over that of the Doppler log is {:.3f}.", *finding.value);
-  if (*finding.low <= 1 + kLeastScale && *finding.high >= 1 - kLeastScale) return finding;
+  if (*finding.low <= 1 + kLeastRatio && *finding.high >= 1 - kLeastRatio) return finding;
   finding.certainty = Certainty::likely;
   finding.position_m = std::abs(*finding.value - 1) * log.speed_m_s() * kCostTime_s;
   finding.todo = "Check the speed of sound that the Doppler log reckons with.";
