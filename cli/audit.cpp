@@ -84,7 +84,8 @@ void audit(const AuditArguments& arguments) {
     };
     with_exit_statuses(
         [&] {
-          found.files.push_back(analysis::audited(analysis::load_audited(request, keep_going), conventions));
+          const analysis::AuditedLog log = analysis::load_audited(request, keep_going);
+          found.files.push_back(analysis::audited(log, conventions));
         },
         analysis::Exit::bad_input);
     tell_remarks("navcal", found.files.back().remarks);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <tuple>
@@ -86,6 +87,9 @@ Finding refused(Finding finding, const calib::CalibratorReport& report) {
   finding.sentence =
       report.judgement.reason.empty() ? "The readings do not determine it." : report.judgement.reason + ".";
   finding.todo = report.judgement.manoeuvre;
+  for (std::string* text : {&finding.sentence, &finding.todo}) {
+    if (!text->empty()) text->front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text->front())));
+  }
   return finding;
 }
 

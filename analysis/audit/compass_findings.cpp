@@ -84,9 +84,9 @@ Finding iron_finding(const AuditedLog& log) {
       kDegreesPerRadian * std::max(std != nullptr ? 1.96 * std->std : 0, errors.disagreement_rad.value_or(0));
   const double worst_deg = errors.worst_rad * kDegreesPerRadian, low_deg = std::max(worst_deg - half_deg, 0.0);
   finding.put({worst_deg, low_deg, worst_deg + half_deg}, "deg");
-  finding.sentence =
-      fmt::format("Iron of {} uT and what it bends turn the heading of the field by up to {:.1f} deg. {}",
-                  vector_text(correction->offset_uT, 1), worst_deg, held_out.words);
+  finding.sentence = fmt::format(
+      "Iron of {} uT, or a compass that is mounted askew, turns the heading of the field by up to {:.1f} deg. {}",
+      vector_text(correction->offset_uT, 1), worst_deg, held_out.words);
   if (report->outcome == calib::Outcome::no_better || low_deg < kLeastHeading_deg) return finding;
   finding.certainty = held_out.is_worse    ? Certainty::cannot_say
                       : held_out.is_better ? Certainty::found
@@ -114,20 +114,22 @@ void append_steps(std::vector<Finding>& findings, const AuditedLog& log) {
   for (const calib::FieldStep& found : log.whole.report.steps) {
     Finding& finding = findings.emplace_back(step);
     const double size_uT = found.size_uT.norm(), std_uT = found.std_uT.norm();
-    const bool is_known = std::isfinite(std_uT);
-    finding.certainty = is_known ? Certainty::found : Certainty::likely;
-    finding.sentence = "In this log " + calib::words_of(found) + ".";
+    const auto* const motor = log.whole.report.find(Calibrator::motor_current);
+    const bool is_motor = motor != nullptr && motor->outcome == calib::Outcome::accepted;
+    const bool is_known = std::isfinite(std_uT) && bounded(size_uT, std_uT).low > 0;
+    finding.certainty = !is_known ? Certainty::cannot_say : is_motor ? Certainty::likely : Certainty::found;
+    finding.sentence = "In this log " + calib::words_of(found) + (is_motor ? "; it may be the motor's." : ".");
     finding.todo = "Look for a magnet, steel, a load or a current beside the compass at that time.";
     if (!is_known) continue;
     finding.put(bounded(size_uT, std_uT), "uT");
     const double across_uT = found.size_uT.head<2>().norm();
-    if (!found.returned && size != nullptr && size->value > across_uT)
+    const bool is_told = across_uT > 2 * found.std_uT.head<2>().norm();
+    if (is_told && !found.returned && size != nullptr && size->value > across_uT)
       finding.put_heading(std::asin(across_uT / size->value) * kDegreesPerRadian, log.speed_m_s());
   }
 }
 
-void append_motor(std::vector<Finding>& findings, const AuditedLog& log) {
-  if (log.all("field_x").empty()) return;
+Finding motor_finding(const AuditedLog& log) {
   Finding finding{"compass.motor", "Field of the motor", log.compass};
   const auto* const report = log.whole.report.find(Calibrator::motor_current);
   const auto currents = log.all("current");
@@ -135,31 +137,40 @@ void append_motor(std::vector<Finding>& findings, const AuditedLog& log) {
     finding.certainty = Certainty::cannot_say;
     finding.sentence = "The log has no current of a motor beside field and rates.";
     finding.todo = "Log the current of the motors; a map names it as motor_current (--map, docs/import.md).";
-    return findings.push_back(finding);
+    return finding;
   }
   const auto& slope = log.whole.report.estimates.motor_current;
-  if (!report->judgement.accepted || !slope) return findings.push_back(refused(finding, *report));
-  const double most_A = quantile(currents.front()->series.values, 0.98);
-  const double size = slope->slope_uT_per_A.norm();
+  if (!slope) return refused(finding, *report);
+  const double most_A = quantile(currents.front()->series.values, 0.98), size = slope->slope_uT_per_A.norm();
   double variance = 0;
   for (const calib::Quantity& quantity : report->estimate) variance += std::pow(quantity.value * quantity.std, 2);
   finding.put(bounded(size, size > 0 ? std::sqrt(variance) / size : 0), "uT/A");
-  const double heading_deg = motor_heading_rad(log, *slope, most_A) * kDegreesPerRadian;
+  finding.low = std::max(*finding.low, 0.0);
   const auto& judgement = report->judgement;
+  if (!judgement.accepted) {
+    // The largest field that the interval allows, ahead and abeam.
+    const double ahead_rad = motor_heading_rad(log, {{*finding.high, 0, 0}}, most_A);
+    const double abeam_rad = motor_heading_rad(log, {{0, *finding.high, 0}}, most_A);
+    if (!(std::max(ahead_rad, abeam_rad) * kDegreesPerRadian < kLeastHeading_deg))
+      return refused(finding, *report);
+    finding.sentence = fmt::format("At {:.1f} A it is below {:.2f} uT.", most_A, *finding.high * most_A);
+    return finding;
+  }
+  const double heading_deg = motor_heading_rad(log, *slope, most_A) * kDegreesPerRadian;
   finding.sentence = fmt::format(
       "{} uT/A; at {:.1f} A it turns the heading by up to {:.1f} deg. On held-out readings {:.2f} uT of {:.2f} "
       "are left.",
       vector_text(slope->slope_uT_per_A, 3), most_A, heading_deg, judgement.held_out_after,
       judgement.held_out_before);
-  if (report->outcome == calib::Outcome::accepted &&
-      judgement.held_out_after<judgement.held_out_before&& * finding.low> 0 && heading_deg >= kLeastHeading_deg) {
-    finding.certainty = Certainty::found;
-    finding.put_heading(heading_deg, log.speed_m_s());
-    finding.todo =
-        fmt::format("Move the compass or twist the motor's leads. ArduPilot: COMPASS_MOT_X, Y and Z = {}.",
-                    vector_text(-kMilligauss * slope->slope_uT_per_A, 2));
-  }
-  findings.push_back(std::move(finding));
+  if (report->outcome != calib::Outcome::accepted || judgement.held_out_after >= judgement.held_out_before ||
+      *finding.low <= 0 || heading_deg < kLeastHeading_deg)
+    return finding;
+  finding.certainty = Certainty::found;
+  finding.put_heading(heading_deg, log.speed_m_s());
+  finding.todo =
+      fmt::format("Move the compass or twist the motor's leads. ArduPilot: COMPASS_MOT_X, Y and Z = {}.",
+                  vector_text(-kMilligauss * slope->slope_uT_per_A, 2));
+  return finding;
 }
 
 /// A heading that a device or the autopilot states.
@@ -191,22 +202,39 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
   return finding;
 }
 
+/// A field that no place on Earth has.
+Finding size_finding(const AuditedLog& log, const std::string& port) {
+  constexpr double kLeast_uT = 20, kMost_uT = 70;  // 22 to 67 uT by the World Magnetic Model, with a scale error
+  Finding finding{"compass.size", "Size of the field", port};
+  const FieldComparison field = compare_fields(log, port, port);
+  const auto size = mean_bounded(block_means(field.time_s, field.size_uT));
+  finding.certainty = size ? Certainty::nothing : Certainty::cannot_say;
+  finding.sentence = "There are too few readings.";
+  if (!size) return finding;
+  finding.put(*size, "uT");
+  finding.sentence = fmt::format("The field has {:.1f} uT; on Earth it has 22 to 67 uT.", size->value);
+  if (size->low <= kMost_uT && size->high >= kLeast_uT) return finding;
+  finding.certainty = Certainty::found;
+  finding.sentence += " The difference is iron beside the compass, a false unit, or a false scale.";
+  finding.todo = "Calibrate the compass, away from steel; check the unit of its field.";
+  return finding;
+}
+
 Finding pair_finding(const AuditedLog& log, const std::string& first, const std::string& second) {
   Finding finding{"compass.pair", "Two compasses", first + ", " + second};
-  const Series angles = angles_between(log, first, second);
-  const auto value = mean_bounded(block_means(angles.time_s, angles.values));
-  if (!value) {
-    finding.certainty = Certainty::cannot_say;
-    finding.sentence = "The two have too few readings at the same times.";
-    return finding;
-  }
+  const FieldComparison field = compare_fields(log, first, second);
+  const auto value = mean_bounded(block_means(field.time_s, field.apart_deg));
+  finding.certainty = value ? Certainty::nothing : Certainty::cannot_say;
+  finding.sentence = "The two have too few readings at the same times.";
+  if (!value) return finding;
   finding.put({value->value, std::max(value->low, 0.0), value->high}, "deg");
-  finding.sentence = fmt::format("The fields of the two point {:.1f} deg apart in the mean.", value->value);
+  finding.sentence = fmt::format("The headings of the two fields are {:.1f} deg apart in the mean{}.",
+                                 value->value, field.is_levelled ? "" : ", the vehicle taken as level");
   if (*finding.low <= kPair_deg) return finding;
   finding.certainty = Certainty::found;
   finding.sentence += " At least one has iron, or is mounted otherwise than stated; the log does not tell which.";
   finding.todo = "Check the mounting of both, then calibrate both.";
-  finding.put_heading(value->value / 2, log.speed_m_s());
+  finding.put_heading(value->value / 2, log.speed_m_s());  // the worse of the two is off by half of it at least
   return finding;
 }
 
@@ -217,11 +245,12 @@ std::vector<Finding> compass_findings(const AuditedLog& log) {
   if (!log.compass.empty() && !log.is_partial) {
     findings.push_back(iron_finding(log));
     append_steps(findings, log);
-    append_motor(findings, log);
+    if (!log.all("field_x").empty()) findings.push_back(motor_finding(log));
     for (const RecordedChannel* channel : log.all("heading")) findings.push_back(heading_finding(log, *channel));
   }
   const auto fields = log.all("field_x");
   for (std::size_t i = 0; i < fields.size(); ++i) {
+    findings.push_back(size_finding(log, fields[i]->port));
     for (std::size_t j = i + 1; j < fields.size(); ++j)
       findings.push_back(pair_finding(log, fields[i]->port, fields[j]->port));
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/audit/heading_errors.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -139,26 +138,31 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   return errors;
 }
 
-Series angles_between(const AuditedLog& log, const std::string& first, const std::string& second) {
-  constexpr std::array kAxes{"field_x", "field_y", "field_z"};
-  Series angles;
-  const RecordedChannel* const times = log.find(first, kAxes[0]);
-  for (std::size_t k = 0; times != nullptr && k < times->series.time_s.size(); ++k) {
-    const double time_s = times->series.time_s[k];
-    Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
-    bool is_known = true;
-    for (std::size_t i = 0; i < kAxes.size() && is_known; ++i) {
-      const auto one = log.at(first, kAxes.at(i), time_s, kMostApart_s);
-      const auto other = log.at(second, kAxes.at(i), time_s, kMostApart_s);
-      is_known = one && other;
-      a[static_cast<Eigen::Index>(i)] = one.value_or(0);
-      b[static_cast<Eigen::Index>(i)] = other.value_or(0);
-    }
-    if (!is_known || a.norm() == 0 || b.norm() == 0) continue;
-    angles.time_s.push_back(time_s);
-    angles.values.push_back(std::atan2(a.cross(b).norm(), a.dot(b)) * base::kDegreesPerRadian);
+FieldComparison compare_fields(const AuditedLog& log, const std::string& first, const std::string& second) {
+  FieldComparison fields;
+  const auto rolls = log.all("roll"), pitches = log.all("pitch");
+  const auto field_at = [&](const std::string& port, double time_s) {
+    const auto axis = [&](const char* name) { return log.at(port, name, time_s, kMostApart_s).value_or(NAN); };
+    return Eigen::Vector3d(axis("field_x"), axis("field_y"), axis("field_z"));
+  };
+  const auto tilt_at = [&](const std::vector<const RecordedChannel*>& tilts, double time_s) {
+    const auto tilt_deg = tilts.empty() ? std::nullopt : value_at(tilts[0]->series, time_s, kMostApart_s);
+    fields.is_levelled = fields.is_levelled && tilt_deg.has_value();
+    return tilt_deg.value_or(0) * base::kRadiansPerDegree;
+  };
+  const RecordedChannel* const times = log.find(first, "field_x");
+  if (times == nullptr) return fields;
+  for (const double time_s : times->series.time_s) {
+    const Eigen::Vector3d one_uT = field_at(first, time_s), other_uT = field_at(second, time_s);
+    if (!one_uT.allFinite() || !other_uT.allFinite()) continue;
+    const double roll_rad = tilt_at(rolls, time_s), pitch_rad = tilt_at(pitches, time_s);
+    const double apart_rad = base::wrapped(calib::levelled_heading(one_uT, roll_rad, pitch_rad) -
+                                           calib::levelled_heading(other_uT, roll_rad, pitch_rad));
+    fields.time_s.push_back(time_s);
+    fields.size_uT.push_back(one_uT.norm());
+    fields.apart_deg.push_back(std::abs(apart_rad) * base::kDegreesPerRadian);
   }
-  return angles;
+  return fields;
 }
 
 }  // namespace navcal::analysis

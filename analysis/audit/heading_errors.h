@@ -33,7 +33,12 @@ struct HeadingErrors {
 /// nullopt where a half has no accepted calibration, or the field stepped.
 [[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
 
-/// Angles between the fields of two ports at the times of the first, degrees. Empty without common times.
-[[nodiscard]] Series angles_between(const AuditedLog& log, const std::string& first, const std::string& second);
+/// The fields of two ports at the times of the first.
+struct FieldComparison {
+  std::vector<double> time_s, size_uT, apart_deg;  ///< size of the first; between the headings of both, 0 to 180
+  bool is_levelled = true;                         ///< roll and pitch are known; else the vehicle counts as level
+};
+[[nodiscard]] FieldComparison compare_fields(const AuditedLog& log, const std::string& first,
+                                             const std::string& second);
 
 }  // namespace navcal::analysis

@@ -14,11 +14,11 @@ namespace {
 using base::kDegreesPerRadian;
 using calib::Calibrator;
 
-constexpr double kLeastBias_deg_s = 0.02;  ///< 12 degrees in ten minutes
+constexpr double kLeastBias_deg_s = 0.02, kAlone_s = 60;  ///< smallest bias; time of its cost
 constexpr double kLeastScale = 0.02, kTurn_deg = 90;
 constexpr double kSome_m_s2 = 30, kMuch_m_s2 = 60;  ///< vibration at which ArduPilot warns, and at which it fails
 
-/// A bias whose interval leaves out small ones. The cost is that of a heading by this gyro alone.
+/// A bias whose interval leaves out small ones.
 void judge_bias(Finding& finding, const Bounded& bias, bool is_confirmed, bool is_vertical,
                 const AuditedLog& log) {
   finding.put(bias, "deg/s");
@@ -27,8 +27,8 @@ void judge_bias(Finding& finding, const Bounded& bias, bool is_confirmed, bool i
   finding.certainty = Certainty::found;
   finding.todo = "Calibrate the gyro at rest before each mission.";
   if (!is_vertical) return;
-  finding.put_heading(std::min(std::abs(bias.value) * kCostTime_s / 2, 180.0), log.speed_m_s());
-  finding.sentence += " The cost is that of a heading by this gyro alone.";
+  finding.put_heading(std::min(std::abs(bias.value) * kAlone_s, 180.0), log.speed_m_s());
+  finding.sentence += " The cost is that of a minute without a compass.";
 }
 
 /// Bias and scale of a vertical gyro, as the turns of the compass show them.

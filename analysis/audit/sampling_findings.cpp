@@ -10,15 +10,15 @@ namespace navcal::analysis {
 namespace {
 
 constexpr std::size_t kFewestReadings = 20;
-constexpr double kMissing = 1.6;     ///< periods between readings from which on one is missing
-constexpr double kIrregular_pc = 5;  ///< share of such intervals from which on there is no rate
-constexpr double kLongGap_s = 1, kLongGap_periods = 5, kFrozen_s = 2;
+constexpr double kMissing = 1.6;      ///< periods between readings from which on one is missing
+constexpr double kIrregular_pc = 20;  ///< share of such intervals from which on there is no rate
+constexpr double kLongGap_s = 1, kLongGap_periods = 5, kFrozen_s = 2, kFrozen_periods = 10, kFewestMissing = 5;
 constexpr double kMissing_pc = 2, kRepeated_pc = 20, kLost_pc = 0.5, kReversed_pc = 0.1;
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
 struct Rhythm {
-  double period_s = 0, jitter_s = 0, missing = 0, expected = 0;
+  double period_s = 0, mean_s = 0, jitter_s = 0, missing = 0, expected = 0;
   double longest_s = 0, longest_at_s = 0;
   double intervals = 0, long_ones = 0, reversed = 0;
 };
@@ -49,6 +49,7 @@ Rhythm rhythm_of(const std::vector<double>& time_s) {
     rhythm.longest_s = interval_s;
     rhythm.longest_at_s = time_s[i - 1];
   }
+  rhythm.mean_s = (time_s.back() - time_s.front()) / rhythm.intervals;
   rhythm.jitter_s = regular > 0 ? std::sqrt(squares / regular) : 0;
   return rhythm;
 }
@@ -76,13 +77,14 @@ Finding rhythm_finding(const AuditedStream& stream, const Rhythm& rhythm) {
         rhythm.long_ones, rhythm.intervals, kMissing, rhythm.period_s, rhythm.longest_s);
     finding.todo = "If the device is set to a fixed rate, look for a loaded bus or logger.";
   } else if (rhythm.longest_s > std::max(kLongGap_s, kLongGap_periods * rhythm.period_s) ||
-             missing_pc > kMissing_pc) {
+             (missing_pc > kMissing_pc && rhythm.missing >= kFewestMissing)) {
     finding = {"sampling.gaps", "Gaps", stream.channel, Certainty::found};
     finding.put_count(missing_pc, "%");
     finding.sentence = fmt::format(
         "{} of {} readings at {:.3g} Hz are missing, in {} gaps; the longest is {:.3g} s, from {:.1f} s on.",
         rhythm.missing, rhythm.expected, rate_Hz, rhythm.long_ones, rhythm.longest_s, rhythm.longest_at_s);
     finding.todo = "Look at cable, supply and load of the logger at the time of the longest gap.";
+    if (stream.kind == "motor") finding.certainty = Certainty::likely;  // commands may be logged when they change
   } else {
     finding.put_count(rate_Hz, "Hz");
     finding.sentence = fmt::format("{} readings, {:.4g} Hz, jitter {:.2g} ms, longest interval {:.3g} s.",
@@ -113,12 +115,12 @@ std::vector<Finding> sampling_findings(const AuditedLog& log) {
     findings.push_back(rhythm_finding(stream, rhythm));
     const auto repeated = static_cast<double>(stream.repeated), vectors = static_cast<double>(stream.vectors);
     if (const double share = percent(repeated, vectors);
-        share > kRepeated_pc || stream.longest_equal_s > kFrozen_s) {
+        share > kRepeated_pc || stream.longest_equal_s > std::max(kFrozen_s, kFrozen_periods * rhythm.mean_s)) {
       Finding& finding = count("sampling.repeated", "Repeated readings", stream.channel, share);
       finding.sentence = fmt::format(
           "{} of {} readings equal the one before in all axes, for up to {:.2g} s: new values come {:.3g} times a "
           "second, not {:.3g}.",
-          repeated, vectors, stream.longest_equal_s, (1 - share / 100) / rhythm.period_s, 1 / rhythm.period_s);
+          repeated, vectors, stream.longest_equal_s, (1 - share / 100) / rhythm.mean_s, 1 / rhythm.mean_s);
       finding.todo = share > kRepeated_pc ? "Log at the rate of the sensor, or read the sensor faster."
                                           : "Look at the bus of the sensor: it stopped for that time.";
     }

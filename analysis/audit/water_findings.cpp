@@ -63,7 +63,7 @@ Finding zeros_finding(Finding finding, const Series& first, const Series* second
 Finding jumps_finding(const std::string& port, const std::vector<AuditedFix>& fixes) {
   Finding finding{"gps.jumps", "Jumps of the receiver", port};
   AuditPicture::Points misses;
-  std::vector<double> misses_m;
+  std::vector<double> misses_m, steps_s;
   const AuditedFix* before = nullptr;
   for (const AuditedFix& fix : fixes) {
     if (!fix.valid) continue;
@@ -73,6 +73,7 @@ Finding jumps_finding(const std::string& port, const std::vector<AuditedFix>& fi
       const double north_m = fix.position_m[0] - before->position_m[0] - way_m * std::cos(*fix.course_rad);
       const double east_m = fix.position_m[1] - before->position_m[1] - way_m * std::sin(*fix.course_rad);
       misses_m.push_back(std::hypot(north_m, east_m));
+      steps_s.push_back(took_s);
       misses.emplace_back(fix.time_s, misses_m.back());
     }
     before = &fix;
@@ -81,6 +82,11 @@ Finding jumps_finding(const std::string& port, const std::vector<AuditedFix>& fi
     finding.certainty = Certainty::cannot_say;
     finding.sentence = before == nullptr ? fmt::format("None of {} messages has a fix.", fixes.size())
                                          : "Too few fixes with a velocity follow one another.";
+    return finding;
+  }
+  if (quantile(steps_s, 0.9) > 1.6 * quantile(steps_s, 0.5)) {
+    finding.certainty = Certainty::cannot_say;
+    finding.sentence = "The fixes have uneven times, so that a velocity does not tell where the next one is due.";
     return finding;
   }
   // The median of a Rayleigh distribution is 1.18 sigma.

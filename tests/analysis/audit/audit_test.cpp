@@ -214,6 +214,7 @@ TEST(Audit, TwoCompassesThatPointApart) {
   ASSERT_NE(pair, nullptr);
   EXPECT_EQ(pair->certainty, Certainty::found);
   EXPECT_NEAR(*pair->value, 11.46, 0.1);
+  EXPECT_EQ(find(findings, "compass.size")->certainty, Certainty::nothing);
 }
 
 Finding valued(const std::string& name, double value, double half) {
