@@ -30,6 +30,14 @@ void Finding::put(const Bounded& bounds, std::string_view of_unit) {
   unit = of_unit;
 }
 
+Finding Finding::cannot(std::string why, std::string remedy) const {
+  Finding open = *this;
+  open.certainty = Certainty::cannot_say;
+  open.sentence = std::move(why);
+  open.todo = std::move(remedy);
+  return open;
+}
+
 void Finding::put_heading(double error_deg, double speed_m_s) {
   heading_deg = error_deg;
   position_m = speed_m_s * kCostTime_s * 2 * std::sin(std::min(error_deg, 180.0) * base::kRadiansPerDegree / 2);
@@ -82,15 +90,12 @@ AuditedFile audited(const AuditedLog& log, std::vector<Finding> more) {
   return file;
 }
 
-Finding refused(Finding finding, const calib::CalibratorReport& report) {
-  finding.certainty = Certainty::cannot_say;
-  finding.sentence =
-      report.judgement.reason.empty() ? "The readings do not determine it." : report.judgement.reason + ".";
-  finding.todo = report.judgement.manoeuvre;
-  for (std::string* text : {&finding.sentence, &finding.todo}) {
-    if (!text->empty()) text->front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text->front())));
-  }
-  return finding;
+Finding refused(const Finding& finding, const calib::CalibratorReport& report) {
+  const auto sentence_of = [](std::string words) {
+    if (!words.empty()) words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+    return words.empty() ? words : words + ".";
+  };
+  return finding.cannot(sentence_of(report.judgement.reason), sentence_of(report.judgement.manoeuvre));
 }
 
 }  // namespace navcal::analysis

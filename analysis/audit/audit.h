@@ -41,6 +41,8 @@ struct Finding {
 
   void put(const Bounded& bounds, std::string_view of_unit);
   void put_count(double count, std::string_view of_unit) { put({count, count, count}, of_unit); }
+  /// The same as a finding that cannot be made.
+  [[nodiscard]] Finding cannot(std::string why, std::string remedy = {}) const;
   /// The cost of a heading that is off by so much all the time.
   void put_heading(double error_deg, double speed_m_s);
 };
@@ -88,6 +90,6 @@ struct Audit {
 /// The time for which costs count.
 inline constexpr double kCostTime_s = 600;
 /// A finding that cannot be made, with what a calibrator says against it.
-[[nodiscard]] Finding refused(Finding finding, const calib::CalibratorReport& report);
+[[nodiscard]] Finding refused(const Finding& finding, const calib::CalibratorReport& report);
 
 }  // namespace navcal::analysis

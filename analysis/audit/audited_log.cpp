@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/audit/bounded.h"
 #include "analysis/calibrate_run.h"
 #include "analysis/failure.h"
 #include "analysis/import/import_log.h"
@@ -12,7 +13,6 @@
 #include "analysis/replay_run.h"
 #include "analysis/temporary_folder.h"
 #include "base/durations.h"
-#include "base/local_plane.h"
 #include "instruments/sample_fields.h"
 
 namespace navcal::analysis {
@@ -63,7 +63,6 @@ class AuditSink final : public ReplaySink {
 
   template <class Value>
   void take(const Value& value, std::uint16_t port, double time_s) {
-    if constexpr (std::is_same_v<Value, instruments::GpsSample>) take_fix(value, port, time_s);
     if constexpr (!std::is_same_v<Value, instruments::SkySample>) {
       OpenStream& open = streams_[{port, instruments::kKind<Value>.name}];
       if constexpr (std::is_same_v<Value, instruments::CompassSample>)
@@ -83,19 +82,6 @@ class AuditSink final : public ReplaySink {
       open.since_s = time_s;
     }
   }
-  void take_fix(const instruments::GpsSample& gps, std::uint16_t port, double time_s) {
-    AuditedFix fix;
-    fix.time_s = time_s;
-    fix.valid = (gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d) && gps.latitude_rad &&
-                gps.longitude_rad;
-    if (fix.valid) {
-      const auto plane = planes_.try_emplace(port, *gps.latitude_rad, *gps.longitude_rad).first;
-      fix.position_m = plane->second.position_m(*gps.latitude_rad, *gps.longitude_rad);
-      fix.speed_m_s = gps.speed_m_s;
-      fix.course_rad = gps.course_rad;
-    }
-    log_.fixes[settings_.ports.at(port).name].push_back(fix);
-  }
 
   AuditedLog& log_;
   const config::Settings& settings_;
@@ -103,7 +89,6 @@ class AuditSink final : public ReplaySink {
   ChannelCollector channels_;
   std::optional<std::int64_t> begin_ns_;
   std::map<std::pair<std::uint16_t, std::string_view>, OpenStream> streams_;
-  std::map<std::uint16_t, base::LocalPlane> planes_;
 };
 
 /// The readings as the devices sent them.
@@ -198,17 +183,17 @@ std::vector<const RecordedChannel*> AuditedLog::all(std::string_view quantity) c
 double AuditedLog::speed_m_s() const {
   constexpr double kUnderWay_m_s = 0.2, kUnknown_m_s = 1;
   std::vector<double> speeds;
-  for (const auto& [port, of_port] : fixes) {
-    for (const AuditedFix& fix : of_port) speeds.push_back(fix.speed_m_s.value_or(0));
-  }
-  for (const RecordedChannel* channel : all("bottom_velocity_1")) {
-    for (const double value : channel->series.values) speeds.push_back(std::abs(value));
+  for (const auto& [one, other] :
+       {std::pair{"velocity_north", "velocity_east"}, {"bottom_velocity_1", "bottom_velocity_2"}}) {
+    for (const RecordedChannel* channel : all(one)) {
+      for (std::size_t i = 0; i < channel->series.values.size(); ++i) {
+        const auto across = at(channel->port, other, channel->series.time_s[i], 0);
+        speeds.push_back(std::hypot(channel->series.values[i], across.value_or(0)));
+      }
+    }
   }
   std::erase_if(speeds, [](double speed) { return speed < kUnderWay_m_s; });
-  if (speeds.empty()) return kUnknown_m_s;
-  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
-  std::nth_element(speeds.begin(), middle, speeds.end());
-  return *middle;
+  return speeds.empty() ? kUnknown_m_s : quantile(speeds, 0.5);
 }
 
 std::optional<double> value_at(const Series& series, double time_s, double most_apart_s) {

@@ -37,14 +37,6 @@ struct AuditedStream {
   double longest_equal_s = 0;  ///< the longest time without a new reading
 };
 
-/// A message of a receiver.
-struct AuditedFix {
-  double time_s = 0;
-  bool valid = false;
-  std::array<double, 2> position_m{};  ///< north and east of the first fix
-  std::optional<double> speed_m_s, course_rad;
-};
-
 /// A calibration of the compass from a part of the log.
 struct AuditedCalibration {
   calib::Report report;
@@ -60,7 +52,6 @@ struct AuditedLog {
   std::vector<RecordedChannel> channels;  ///< in people's units
   std::vector<Interval> rest;             ///< parts in which the vehicle is at rest
   std::vector<AuditedStream> streams;
-  std::map<std::string, std::vector<AuditedFix>> fixes;  ///< by port
   std::map<std::string, pipeline::PortStatistics> ports;
   std::optional<pipeline::EarthField> earth;
   std::string compass;  ///< port from which the calibrators learn; empty: none

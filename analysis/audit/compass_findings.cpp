@@ -71,11 +71,7 @@ Finding iron_finding(const AuditedLog& log) {
   Finding finding{"compass.iron", "Iron at the compass", log.compass};
   const auto* report = log.whole.report.find(Calibrator::magnetometer);
   const auto& correction = log.whole.report.estimates.magnetometer;
-  if (report == nullptr) {
-    finding.certainty = Certainty::cannot_say;
-    finding.sentence = "The compass sends no field.";
-    return finding;
-  }
+  if (report == nullptr) return finding.cannot("The compass sends no field.");
   if (!report->judgement.accepted || !correction) return refused(finding, *report);
   const IronErrors errors = iron_errors(log, *correction);
   const HeldOutWords held_out = held_out_words(*report, errors);
@@ -178,13 +174,10 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
   Finding finding{"compass.heading", "Stated heading", channel.port};
   const auto errors = heading_errors(log, channel);
   const auto value = errors ? root_mean_square_bounded(errors->time_s, errors->error_deg) : std::nullopt;
-  if (!value) {
-    finding.certainty = Certainty::cannot_say;
-    finding.sentence =
-        "The compass could not be calibrated in both halves of the log, so that nothing judges this heading.";
-    finding.todo = "Turn through all headings twice.";
-    return finding;
-  }
+  if (!value)
+    return finding.cannot(
+        "The compass could not be calibrated in both halves of the log, so that nothing judges this heading.",
+        "Turn through all headings twice.");
   const double own_deg = 1.96 * errors->reference_std_rad * kDegreesPerRadian;
   finding.put({value->value, std::max(value->low - own_deg, 0.0), value->high + own_deg}, "deg");
   finding.sentence = fmt::format(
@@ -208,9 +201,7 @@ Finding size_finding(const AuditedLog& log, const std::string& port) {
   Finding finding{"compass.size", "Size of the field", port};
   const FieldComparison field = compare_fields(log, port, port);
   const auto size = mean_bounded(block_means(field.time_s, field.size_uT));
-  finding.certainty = size ? Certainty::nothing : Certainty::cannot_say;
-  finding.sentence = "There are too few readings.";
-  if (!size) return finding;
+  if (!size) return finding.cannot("There are too few readings.");
   finding.put(*size, "uT");
   finding.sentence = fmt::format("The field has {:.1f} uT; on Earth it has 22 to 67 uT.", size->value);
   if (size->low <= kMost_uT && size->high >= kLeast_uT) return finding;
@@ -224,9 +215,7 @@ Finding pair_finding(const AuditedLog& log, const std::string& first, const std:
   Finding finding{"compass.pair", "Two compasses", first + ", " + second};
   const FieldComparison field = compare_fields(log, first, second);
   const auto value = mean_bounded(block_means(field.time_s, field.apart_deg));
-  finding.certainty = value ? Certainty::nothing : Certainty::cannot_say;
-  finding.sentence = "The two have too few readings at the same times.";
-  if (!value) return finding;
+  if (!value) return finding.cannot("The two have too few readings at the same times.");
   finding.put({value->value, std::max(value->low, 0.0), value->high}, "deg");
   finding.sentence = fmt::format("The headings of the two fields are {:.1f} deg apart in the mean{}.",
                                  value->value, field.is_levelled ? "" : ", the vehicle taken as level");

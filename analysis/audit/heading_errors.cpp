@@ -146,16 +146,17 @@ FieldComparison compare_fields(const AuditedLog& log, const std::string& first, 
     return Eigen::Vector3d(axis("field_x"), axis("field_y"), axis("field_z"));
   };
   const auto tilt_at = [&](const std::vector<const RecordedChannel*>& tilts, double time_s) {
-    const auto tilt_deg = tilts.empty() ? std::nullopt : value_at(tilts[0]->series, time_s, kMostApart_s);
-    fields.is_levelled = fields.is_levelled && tilt_deg.has_value();
-    return tilt_deg.value_or(0) * base::kRadiansPerDegree;
+    const auto tilt_deg = value_at(tilts.front()->series, time_s, kMostApart_s);
+    return tilt_deg ? *tilt_deg * base::kRadiansPerDegree : NAN;
   };
+  fields.is_levelled = !rolls.empty() && !pitches.empty();
   const RecordedChannel* const times = log.find(first, "field_x");
   if (times == nullptr) return fields;
   for (const double time_s : times->series.time_s) {
     const Eigen::Vector3d one_uT = field_at(first, time_s), other_uT = field_at(second, time_s);
-    if (!one_uT.allFinite() || !other_uT.allFinite()) continue;
-    const double roll_rad = tilt_at(rolls, time_s), pitch_rad = tilt_at(pitches, time_s);
+    const double roll_rad = fields.is_levelled ? tilt_at(rolls, time_s) : 0;
+    const double pitch_rad = fields.is_levelled ? tilt_at(pitches, time_s) : 0;
+    if (!one_uT.allFinite() || !other_uT.allFinite() || !std::isfinite(roll_rad + pitch_rad)) continue;
     const double apart_rad = base::wrapped(calib::levelled_heading(one_uT, roll_rad, pitch_rad) -
                                            calib::levelled_heading(other_uT, roll_rad, pitch_rad));
     fields.time_s.push_back(time_s);

@@ -18,11 +18,11 @@ Finding surface_finding(const AuditedLog& log, const RecordedChannel& depth) {
   Finding finding{"depth.surface", "Depth at the surface", depth.port};
   finding.todo = "Compare with how deep the gauge hangs below the antenna; set it to zero at the surface.";
   Series surface;
-  for (const auto& [port, fixes] : log.fixes) {
-    for (const AuditedFix& fix : fixes) {
-      const auto value = fix.valid ? value_at(depth.series, fix.time_s, kApart_s) : std::nullopt;
+  for (const RecordedChannel* fixes : log.all("north")) {
+    for (const double time_s : fixes->series.time_s) {
+      const auto value = value_at(depth.series, time_s, kApart_s);
       if (!value) continue;
-      surface.time_s.push_back(fix.time_s);
+      surface.time_s.push_back(time_s);
       surface.values.push_back(*value);
     }
   }
@@ -60,35 +60,25 @@ Finding zeros_finding(Finding finding, const Series& first, const Series* second
 }
 
 /// Fixes that their own velocities contradict.
-Finding jumps_finding(const std::string& port, const std::vector<AuditedFix>& fixes) {
-  Finding finding{"gps.jumps", "Jumps of the receiver", port};
+Finding jumps_finding(const AuditedLog& log, const RecordedChannel& north) {
+  Finding finding{"gps.jumps", "Jumps of the receiver", north.port};
   AuditPicture::Points misses;
   std::vector<double> misses_m, steps_s;
-  const AuditedFix* before = nullptr;
-  for (const AuditedFix& fix : fixes) {
-    if (!fix.valid) continue;
-    const double took_s = before == nullptr ? 0 : fix.time_s - before->time_s;
-    if (took_s > 0 && took_s < kLongestStep_s && fix.speed_m_s && fix.course_rad) {
-      const double way_m = *fix.speed_m_s * took_s;
-      const double north_m = fix.position_m[0] - before->position_m[0] - way_m * std::cos(*fix.course_rad);
-      const double east_m = fix.position_m[1] - before->position_m[1] - way_m * std::sin(*fix.course_rad);
-      misses_m.push_back(std::hypot(north_m, east_m));
-      steps_s.push_back(took_s);
-      misses.emplace_back(fix.time_s, misses_m.back());
-    }
-    before = &fix;
+  const RecordedChannel* const east = log.find(north.port, "east");  // in the same samples as north
+  for (std::size_t i = 1; east != nullptr && i < north.series.values.size(); ++i) {
+    const double time_s = north.series.time_s[i], took_s = time_s - north.series.time_s[i - 1];
+    const auto ahead_m_s = log.at(north.port, "velocity_north", time_s, 0);
+    const auto aside_m_s = log.at(north.port, "velocity_east", time_s, 0);
+    if (took_s <= 0 || took_s > kLongestStep_s || !ahead_m_s || !aside_m_s) continue;
+    misses_m.push_back(std::hypot(north.series.values[i] - north.series.values[i - 1] - *ahead_m_s * took_s,
+                                  east->series.values[i] - east->series.values[i - 1] - *aside_m_s * took_s));
+    misses.emplace_back(time_s, misses_m.back());
+    steps_s.push_back(took_s);
   }
-  if (misses_m.size() < kFewestFixes) {
-    finding.certainty = Certainty::cannot_say;
-    finding.sentence = before == nullptr ? fmt::format("None of {} messages has a fix.", fixes.size())
-                                         : "Too few fixes with a velocity follow one another.";
-    return finding;
-  }
-  if (quantile(steps_s, 0.9) > 1.6 * quantile(steps_s, 0.5)) {
-    finding.certainty = Certainty::cannot_say;
-    finding.sentence = "The fixes have uneven times, so that a velocity does not tell where the next one is due.";
-    return finding;
-  }
+  if (misses_m.size() < kFewestFixes) return finding.cannot("Too few fixes with a velocity follow one another.");
+  if (quantile(steps_s, 0.9) > 1.6 * quantile(steps_s, 0.5))
+    return finding.cannot(
+        "The fixes have uneven times, so that a velocity does not tell where the next one is due.");
   // The median of a Rayleigh distribution is 1.18 sigma.
   const double limit_m = std::max(kFarFix_m, kJumpSigmas * quantile(misses_m, 0.5) / 1.18);
   const auto jumps =
@@ -113,24 +103,23 @@ Finding jumps_finding(const std::string& port, const std::vector<AuditedFix>& fi
 Finding doppler_scale(const AuditedLog& log, const std::string& port) {
   Finding finding{"dvl.scale", "Scale of the Doppler log", port};
   std::vector<double> time_s, ratios;
-  for (const auto& [receiver, fixes] : log.fixes) {
-    for (const AuditedFix& fix : fixes) {
-      if (!fix.valid || fix.speed_m_s.value_or(0) < kLeastSpeed_m_s) continue;
-      const auto one = log.at(port, "bottom_velocity_1", fix.time_s, kApart_s);
-      const auto two = log.at(port, "bottom_velocity_2", fix.time_s, kApart_s);
-      const double speed_m_s = std::hypot(one.value_or(0), two.value_or(0));
-      if (speed_m_s < kLeastSpeed_m_s / 2) continue;
-      time_s.push_back(fix.time_s);
-      ratios.push_back(std::log(*fix.speed_m_s / speed_m_s));
+  for (const RecordedChannel* north : log.all("velocity_north")) {
+    for (std::size_t i = 0; i < north->series.values.size(); ++i) {
+      const double at_s = north->series.time_s[i];
+      const auto east = log.at(north->port, "velocity_east", at_s, 0);
+      const auto one = log.at(port, "bottom_velocity_1", at_s, kApart_s);
+      const auto two = log.at(port, "bottom_velocity_2", at_s, kApart_s);
+      const double ground_m_s = std::hypot(north->series.values[i], east.value_or(0));
+      const double doppler_m_s = std::hypot(one.value_or(0), two.value_or(0));
+      if (ground_m_s < kLeastSpeed_m_s || doppler_m_s < kLeastSpeed_m_s / 2) continue;
+      time_s.push_back(at_s);
+      ratios.push_back(std::log(ground_m_s / doppler_m_s));
     }
   }
   const auto mean = mean_bounded(block_means(time_s, ratios));
-  if (!mean) {
-    finding.certainty = Certainty::cannot_say;
-    finding.sentence = "Receiver and Doppler log have too few velocities at the same times.";
-    finding.todo = "Run at the surface with bottom lock for some minutes.";
-    return finding;
-  }
+  if (!mean)
+    return finding.cannot("Receiver and Doppler log have too few velocities at the same times.",
+                          "Run at the surface with bottom lock for some minutes.");
   finding.put({std::exp(mean->value), std::exp(mean->low), std::exp(mean->high)}, "");
   finding.sentence = fmt::format("Speed of the receiver over that of the Doppler log is {:.3f}.", *finding.value);
   if (*finding.low <= 1 + kLeastRatio && *finding.high >= 1 - kLeastRatio) return finding;
@@ -150,7 +139,7 @@ std::vector<Finding> water_findings(const AuditedLog& log) {
   for (const RecordedChannel* channel : log.all("altitude"))
     findings.push_back(zeros_finding({"altimeter.zeros", "Zeros of the altimeter", channel->port}, channel->series,
                                      nullptr, "distances"));
-  for (const auto& [port, fixes] : log.fixes) findings.push_back(jumps_finding(port, fixes));
+  for (const RecordedChannel* channel : log.all("north")) findings.push_back(jumps_finding(log, *channel));
   for (const RecordedChannel* channel : log.all("bottom_velocity_1")) {
     const RecordedChannel* const second = log.find(channel->port, "bottom_velocity_2");
     findings.push_back(zeros_finding({"dvl.zeros", "Zeros of the Doppler log", channel->port}, channel->series,

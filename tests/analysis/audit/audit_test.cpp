@@ -153,16 +153,15 @@ TEST(Audit, BiasAtRestIsFoundWithItsIntervalAndNotWithoutRest) {
 
 AuditedLog with_fixes(double jump_m) {
   AuditedLog log;
-  auto& fixes = log.fixes["gps"];
+  std::vector<double> north, east;
   for (int i = 0; i < 200; ++i) {
-    AuditedFix fix;
-    fix.time_s = i;
-    fix.valid = true;
-    fix.position_m = {2.0 * i + (i == 100 ? jump_m : 0), 0.1 * std::sin(i)};
-    fix.speed_m_s = 2;
-    fix.course_rad = 0;
-    fixes.push_back(fix);
+    north.push_back(2.0 * i + (i == 100 ? jump_m : 0));
+    east.push_back(0.1 * std::sin(i));
   }
+  log.channels.push_back(channel("gps", "north", north, 1));
+  log.channels.push_back(channel("gps", "east", east, 1));
+  log.channels.push_back(channel("gps", "velocity_north", std::vector<double>(200, 2), 1));
+  log.channels.push_back(channel("gps", "velocity_east", std::vector<double>(200, 0), 1));
   return log;
 }
 
@@ -178,7 +177,7 @@ TEST(Audit, DepthAtTheSurfaceNeedsFixes) {
   AuditedLog log;
   log.channels.push_back(channel("gauge", "gauge_depth", normal(2000, 1.2, 0.05), 0.1));
   EXPECT_EQ(find(water_findings(log), "depth.surface")->certainty, Certainty::cannot_say);
-  log.fixes = with_fixes(0).fixes;
+  for (const RecordedChannel& one : with_fixes(0).channels) log.channels.push_back(one);
   const auto findings = water_findings(log);
   const Finding* offset = find(findings, "depth.surface");
   EXPECT_EQ(offset->certainty, Certainty::likely);
