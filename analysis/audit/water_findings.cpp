@@ -9,7 +9,8 @@
 namespace navcal::analysis {
 namespace {
 
-constexpr double kLeastDepth_m = 0.5, kFarFix_m = 25, kJumpSigmas = 6, kLongestStep_s = 5, kZeros_pc = 1;
+constexpr double kLeastDepth_m = 0.5, kDive_m = 1, kFarFix_m = 25, kJumpSigmas = 6, kLongestStep_s = 5,
+                 kZeros_pc = 1;
 constexpr double kLeastSpeed_m_s = 0.5, kLeastRatio = 0.02, kApart_s = 2;
 constexpr std::size_t kFewestFixes = 20;
 
@@ -26,18 +27,26 @@ Finding surface_finding(const AuditedLog& log, const RecordedChannel& depth) {
       surface.values.push_back(*value);
     }
   }
-  if (const auto offset = mean_bounded(block_means(surface.time_s, surface.values))) {
-    finding.put(*offset, "m");
-    finding.sentence = fmt::format("While a receiver has a fix the gauge shows {:.2f} m.", offset->value);
-    // The gauge may hang below the antenna.
-    if (offset->low > kLeastDepth_m || offset->high < -kLeastDepth_m) finding.certainty = Certainty::likely;
+  const auto offset = mean_bounded(block_means(surface.time_s, surface.values));
+  const double shallow_m = quantile(depth.series.values, 0.001);
+  if (!offset && shallow_m < -kLeastDepth_m) {
+    finding.certainty = Certainty::likely;
+    finding.put_count(shallow_m, "m");
+    finding.sentence = fmt::format("The least depth is {:.2f} m, which is above the water.", shallow_m);
     return finding;
   }
-  const double least_m = quantile(depth.series.values, 0.001);
-  finding.certainty = least_m < -kLeastDepth_m ? Certainty::likely : Certainty::cannot_say;
-  finding.sentence = fmt::format("No fix says when the vehicle was at the surface; the least depth is {:.2f} m{}.",
-                                 least_m, least_m < -kLeastDepth_m ? ", which is above the water" : "");
-  if (finding.certainty == Certainty::likely) finding.put_count(least_m, "m");
+  const double upper_m = quantile(surface.values, 0.05), lower_m = quantile(surface.values, 0.95);
+  // Fixes tell the surface only of a vehicle that has none below it.
+  const bool is_surface =
+      lower_m - upper_m < kLeastDepth_m && quantile(depth.series.values, 0.95) > lower_m + kDive_m;
+  if (!offset || !is_surface)
+    return finding.cannot(
+        fmt::format("No dive between fixes says what the gauge shows at the surface; the least depth is {:.2f} m.",
+                    shallow_m));
+  finding.put(*offset, "m");
+  finding.sentence = fmt::format("While a receiver has a fix the gauge shows {:.2f} m.", offset->value);
+  // The gauge may hang below the antenna.
+  if (offset->low > kLeastDepth_m || offset->high < -kLeastDepth_m) finding.certainty = Certainty::likely;
   return finding;
 }
 

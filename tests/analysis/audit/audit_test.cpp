@@ -175,13 +175,18 @@ TEST(Audit, AJumpOfTheReceiverIsFound) {
 
 TEST(Audit, DepthAtTheSurfaceNeedsFixes) {
   AuditedLog log;
-  log.channels.push_back(channel("gauge", "gauge_depth", normal(2000, 1.2, 0.05), 0.1));
+  auto depth = normal(4000, 1.2, 0.05);
+  for (std::size_t i = 2000; i < depth.size(); ++i) depth[i] += 8;  // after the last fix
+  log.channels.push_back(channel("gauge", "gauge_depth", depth, 0.1));
   EXPECT_EQ(find(water_findings(log), "depth.surface")->certainty, Certainty::cannot_say);
   for (const RecordedChannel& one : with_fixes(0).channels) log.channels.push_back(one);
   const auto findings = water_findings(log);
   const Finding* offset = find(findings, "depth.surface");
   EXPECT_EQ(offset->certainty, Certainty::likely);
   EXPECT_NEAR(*offset->value, 1.2, 0.05);
+  // A vehicle with fixes at all times, in the air say, tells nothing of the surface.
+  log.channels.front().series.values.assign(4000, 9.7);
+  EXPECT_EQ(find(water_findings(log), "depth.surface")->certainty, Certainty::cannot_say);
 }
 
 TEST(Audit, ScaleAndZerosOfADopplerLog) {
