@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -41,6 +42,8 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
     motion.order_times_s.clear();
     motion.ordered_fins_rad.clear();
   }
+  const auto channels = std::count_if(motion.channels.begin(), motion.channels.end(),
+                                      [](const auto& readings) { return !readings.empty(); });
   const identify::ConventionCheck check = identify::check_conventions(layout, {std::move(motion)}, show);
   std::vector<analysis::Finding> findings;
   for (const identify::Convention& convention : check.found) {
@@ -54,8 +57,10 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
     finding.todo = "Mend unit, sign or frame where the log is written: docs/vehicles.md lists the conventions.";
   }
   if (findings.empty()) {
-    analysis::Finding& none = findings.emplace_back(analysis::Finding{"convention", "Conventions", "all"});
-    none.sentence = "Channels that can be compared agree in unit, sign and frame.";
+    const analysis::Finding none{"convention", "Conventions", "all"};
+    findings.push_back(none);
+    findings.back().sentence = "Channels that can be compared agree in unit, sign and frame.";
+    if (channels < 2) findings.back() = none.cannot("There are no two channels to compare.");
   }
   return findings;
 }
