@@ -24,6 +24,7 @@ void add_calibrate(CLI::App& app);
 void add_noise(CLI::App& app);
 
 // Group: Diagnose
+void add_audit(CLI::App& app);
 void add_gap(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_fleet(CLI::App& app);

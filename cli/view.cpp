@@ -13,6 +13,7 @@
 
 #include "analysis/import/import_log.h"
 #include "analysis/log_import.h"
+#include "analysis/temporary_folder.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
@@ -29,26 +30,6 @@ struct ViewArguments {
   std::uint16_t port = 0;
   double speed = 1;
   bool no_open = false;
-};
-
-/// A folder for the log of a recording that is none. It goes with everything in it.
-class ViewFolder {
- public:
-  ViewFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "navcal-view-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::system_category(), name);
-    path_ = name;
-  }
-  ~ViewFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ViewFolder(const ViewFolder&) = delete;
-  ViewFolder& operator=(const ViewFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// A log of a capture, or of a log of another system.
@@ -87,7 +68,7 @@ void open_browser(const std::string& address) {
 }
 
 void view(const ViewArguments& arguments) {
-  std::optional<ViewFolder> folder;
+  std::optional<analysis::TemporaryFolder> folder;
   web::ViewerSettings settings;
   const bool is_log = run_log_job([&](const record::Progress&) { return record::is_log(arguments.file); });
   if (!is_log) folder.emplace();

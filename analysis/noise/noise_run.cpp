@@ -55,20 +55,18 @@ std::vector<Interval> chosen_interval(const NoiseRequest& request, double durati
                 fmt::format("--from and --to leave nothing of the recording, which is {:.1f} s long", duration_s));
 }
 
-void find_quiet_parts(NoiseReport& report) {
+}  // namespace
+
+QuietParts quiet_parts_of(const std::vector<RecordedChannel>& channels, double duration_s) {
   std::vector<MotionChannel> motion;
-  for (const RecordedChannel& recorded : report.channels) {
+  for (const RecordedChannel& recorded : channels) {
     const NoiseChannel& channel = *recorded.channel;
     if (channel.slow_limit > 0)
       motion.push_back(
           {recorded.name(), std::string(channel.unit), &recorded.series, channel.slow_limit, channel.mean_limit});
   }
-  QuietParts parts = quiet_parts(motion, report.duration_s);
-  report.quiet = std::move(parts.intervals);
-  report.quietest = std::move(parts.quietest);
+  return quiet_parts(motion, duration_s);
 }
-
-}  // namespace
 
 NoiseReport noise_of(const NoiseRequest& request, const config::Settings& settings) {
   const config::Settings used = plain(settings);
@@ -80,10 +78,13 @@ NoiseReport noise_of(const NoiseRequest& request, const config::Settings& settin
   report.begin_utc_ns = collector.begin_utc_ns();
   report.channels = collector.take_channels(used);
   report.chosen = request.from_s || request.to_s;
-  if (report.chosen)
+  if (report.chosen) {
     report.quiet = chosen_interval(request, report.duration_s);
-  else
-    find_quiet_parts(report);
+  } else {
+    QuietParts parts = quiet_parts_of(report.channels, report.duration_s);
+    report.quiet = std::move(parts.intervals);
+    report.quietest = std::move(parts.quietest);
+  }
   for (RecordedChannel& recorded : report.channels) recorded.noise = channel_noise(recorded.series, report.quiet);
   return report;
 }

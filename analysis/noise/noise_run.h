@@ -40,6 +40,9 @@ struct NoiseRequest {
   std::optional<double> from_s, to_s;  ///< from the beginning; either makes the interval chosen
 };
 
+/// The parts at rest by the channels that show motion.
+[[nodiscard]] QuietParts quiet_parts_of(const std::vector<RecordedChannel>& channels, double duration_s);
+
 /// Plays a recording through the pipeline and analyses every channel of every port in the axes of its device: the
 /// mounting of the settings is left out. Throws record::BadRecording, and Failure (usage) for an interval that is
 /// empty or outside the recording.

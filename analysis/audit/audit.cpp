@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/audit/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include "base/angles.h"
+
+namespace navcal::analysis {
+
+std::string_view name_of(Certainty certainty) {
+  switch (certainty) {
+    case Certainty::found: return "found";
+    case Certainty::likely: return "likely";
+    case Certainty::cannot_say: return "cannot say";
+    case Certainty::nothing: break;
+  }
+  return "nothing found";
+}
+
+void Finding::put(const Bounded& bounds, std::string_view of_unit) {
+  value = bounds.value;
+  low = bounds.low;
+  high = bounds.high;
+  unit = of_unit;
+}
+
+Finding Finding::cannot(std::string why, std::string remedy) const {
+  Finding open = *this;
+  open.certainty = Certainty::cannot_say;
+  open.sentence = std::move(why);
+  open.todo = std::move(remedy);
+  return open;
+}
+
+void Finding::put_heading(double error_deg, double speed_m_s) {
+  heading_deg = error_deg;
+  position_m = speed_m_s * kCostTime_s * 2 * std::sin(std::min(error_deg, 180.0) * base::kRadiansPerDegree / 2);
+}
+
+void sort_findings(std::vector<Finding>& findings) {
+  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+    return std::tuple(a.certainty, -a.position_m.value_or(0)) < std::tuple(b.certainty, -b.position_m.value_or(0));
+  });
+}
+
+bool Audit::nothing_found() const {
+  return std::all_of(files.begin(), files.end(), [](const AuditedFile& file) {
+    return std::all_of(file.findings.begin(), file.findings.end(), [](const Finding& finding) {
+      return finding.certainty != Certainty::found && finding.certainty != Certainty::likely;
+    });
+  });
+}
+
+std::vector<AuditChange> Audit::changes() const {
+  std::vector<AuditChange> changes;
+  const auto add = [&](const Finding& old, const Finding& now, const std::string& file) {
+    if (old.name != now.name || old.channel != now.channel || old.unit != now.unit || !old.value || !now.value)
+      return;
+    if (!(*old.high > *old.low) || !(*now.high > *now.low)) return;
+    const double difference = *now.value - *old.value;
+    const double low = difference - std::hypot(*now.value - *now.low, *old.high - *old.value);
+    const double high = difference + std::hypot(*now.high - *now.value, *old.value - *old.low);
+    if (low <= 0 && high >= 0) return;
+    changes.push_back({file, old.name, old.channel, old.unit,
+                       fmt::format("{}, {}: from {:.4g} to {:.4g} {}, a change of {:.3g} to {:.3g}.", old.title,
+                                   old.channel, *old.value, *now.value, old.unit, low, high),
+                       *old.value, *now.value, low, high});
+  };
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    for (const Finding& old : files.front().findings) {
+      for (const Finding& now : files[i].findings) add(old, now, files[i].file);
+    }
+  }
+  return changes;
+}
+
+AuditedFile audited(const AuditedLog& log, std::vector<Finding> more) {
+  AuditedFile file{log.file, log.duration_s, log.speed_m_s(), log.is_partial, log.remarks, std::move(more)};
+  for (const auto group : {sampling_findings, compass_findings, inertial_findings, water_findings}) {
+    auto findings = group(log);
+    std::move(findings.begin(), findings.end(), std::back_inserter(file.findings));
+  }
+  sort_findings(file.findings);
+  return file;
+}
+
+Finding refused(const Finding& finding, const calib::CalibratorReport& report) {
+  const auto sentence_of = [](std::string words) {
+    if (!words.empty()) words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+    return words.empty() ? words : words + ".";
+  };
+  return finding.cannot(sentence_of(report.judgement.reason), sentence_of(report.judgement.manoeuvre));
+}
+
+}  // namespace navcal::analysis

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/audit/heading_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/angles.h"
+#include "base/durations.h"
+
+namespace navcal::analysis {
+namespace {
+
+using calib::Calibrator;
+using calib::FieldCorrection;
+
+const FieldCorrection* accepted_field(const calib::Report& report) {
+  const auto* const magnetometer = report.find(Calibrator::magnetometer);
+  if (magnetometer == nullptr || !magnetometer->judgement.accepted || !report.estimates.magnetometer)
+    return nullptr;
+  return &*report.estimates.magnetometer;
+}
+
+/// The field in body axes with the tilt that levels it.
+struct TiltedField {
+  double time_s = 0;
+  std::int64_t utc_ns = 0;
+  Eigen::Vector3d field_uT;
+  double roll_rad = 0, pitch_rad = 0;
+  [[nodiscard]] double heading_rad(const FieldCorrection& correction) const {
+    return calib::levelled_heading(correction(field_uT), roll_rad, pitch_rad);
+  }
+};
+
+std::vector<TiltedField> tilted_fields(const std::vector<TurnedSample>& samples, std::int64_t since_utc_ns) {
+  std::vector<TiltedField> fields;
+  for (const TurnedSample& sample : samples) {
+    const auto& reading = sample.reading;
+    if (!reading.field_body_uT || !reading.roll_rad || !reading.pitch_rad || reading.utc_ns < since_utc_ns)
+      continue;
+    fields.push_back(
+        {reading.time_s, reading.utc_ns, *reading.field_body_uT, *reading.roll_rad, *reading.pitch_rad});
+  }
+  return fields;
+}
+
+/// Standard deviation over mean.
+double spread_of(const std::vector<double>& sizes) {
+  double sum = 0, squares = 0;
+  for (const double size : sizes) sum += size;
+  const double mean = sum / static_cast<double>(sizes.size());
+  for (const double size : sizes) squares += (size - mean) * (size - mean);
+  return std::sqrt(squares / static_cast<double>(sizes.size())) / mean;
+}
+
+constexpr double kMostApart_s = 0.5;
+
+}  // namespace
+
+IronErrors iron_errors(const AuditedLog& log, const FieldCorrection& correction) {
+  constexpr std::size_t kSectors = 12, kFewest = 3;
+  IronErrors errors;
+  const auto& segments = log.whole.report.segments;
+  const auto fields = tilted_fields(log.whole.samples, segments.empty() ? 0 : segments.back().begin_utc_ns);
+  const std::array halves{accepted_field(log.halves[0].report), accepted_field(log.halves[1].report)};
+  const bool both = halves[0] != nullptr && halves[1] != nullptr && segments.size() < 2;
+  std::array<double, kSectors> sums{}, between{};
+  std::array<std::size_t, kSectors> counts{};
+  for (const TiltedField& field : fields) {
+    const double heading_rad = field.heading_rad(correction);
+    const auto sector = std::min(static_cast<std::size_t>(heading_rad / base::kTurn_rad * kSectors), kSectors - 1);
+    sums.at(sector) += base::wrapped(field.heading_rad(FieldCorrection{}) - heading_rad);
+    if (both) between.at(sector) += base::wrapped(field.heading_rad(*halves[0]) - field.heading_rad(*halves[1]));
+    ++counts.at(sector);
+  }
+  if (both) errors.disagreement_rad = 0;
+  for (std::size_t i = 0; i < kSectors; ++i) {
+    if (counts.at(i) < kFewest) continue;
+    const auto count = static_cast<double>(counts.at(i));
+    errors.worst_rad = std::max(errors.worst_rad, std::abs(sums.at(i)) / count);
+    if (both) errors.disagreement_rad = std::max(*errors.disagreement_rad, std::abs(between.at(i)) / count);
+  }
+  if (!both) return errors;
+  std::vector<double> before, after;
+  for (std::size_t half = 0; half < 2; ++half) {
+    for (const TurnedSample& sample : log.halves.at(half).samples) {
+      if (!sample.reading.field_body_uT) continue;
+      before.push_back(sample.reading.field_body_uT->norm());
+      after.push_back((*halves.at(1 - half))(*sample.reading.field_body_uT).norm());
+    }
+  }
+  if (before.empty()) return errors;
+  errors.spread_before = spread_of(before);
+  errors.spread_after = spread_of(after);
+  return errors;
+}
+
+double motor_heading_rad(const AuditedLog& log, const calib::MotorCurrentCorrection& motor, double current_A) {
+  const FieldCorrection* const accepted = accepted_field(log.whole.report);
+  const FieldCorrection correction = accepted != nullptr ? *accepted : FieldCorrection{};
+  double most_rad = 0;
+  for (TiltedField field : tilted_fields(log.whole.samples, 0)) {
+    const double with_rad = field.heading_rad(correction);
+    field.field_uT -= motor.slope_uT_per_A * current_A;
+    most_rad = std::max(most_rad, std::abs(base::wrapped(with_rad - field.heading_rad(correction))));
+  }
+  return most_rad;
+}
+
+std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading) {
+  const std::array halves{accepted_field(log.halves[0].report), accepted_field(log.halves[1].report)};
+  if (halves[0] == nullptr || halves[1] == nullptr || log.whole.report.segments.size() > 1) return std::nullopt;
+  HeadingErrors errors;
+  // A device of the compass states magnetic north; the autopilot states true north.
+  const bool is_own = heading.port == log.compass;
+  errors.is_absolute =
+      is_own || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
+  const double declination_rad = is_own || !log.earth ? 0 : log.earth->declination_rad;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t half = 0; half < 2; ++half) {
+    const auto* const report = log.halves.at(half).report.find(Calibrator::magnetometer);
+    if (const auto* std = report->quantity("worst_heading_rad"); std != nullptr)
+      errors.reference_std_rad = std::max(errors.reference_std_rad, std->std);
+    for (const TiltedField& field : tilted_fields(log.halves.at(half).samples, 0)) {
+      const double time_s = base::seconds(field.utc_ns - log.begin_utc_ns);
+      const auto stated_deg = value_at(heading.series, time_s, kMostApart_s);
+      if (!stated_deg) continue;
+      const double reference_rad = field.heading_rad(*halves.at(1 - half)) + declination_rad;
+      const double error_rad = base::wrapped(*stated_deg * base::kRadiansPerDegree - reference_rad);
+      sum += Eigen::Vector2d(std::cos(error_rad), std::sin(error_rad));
+      errors.time_s.push_back(time_s);
+      errors.heading_deg.push_back(base::positive_angle(reference_rad) * base::kDegreesPerRadian);
+      errors.error_deg.push_back(error_rad * base::kDegreesPerRadian);
+    }
+  }
+  const double mean_deg = errors.is_absolute ? 0 : std::atan2(sum.y(), sum.x()) * base::kDegreesPerRadian;
+  for (double& error_deg : errors.error_deg) error_deg = std::remainder(error_deg - mean_deg, 360.0);
+  return errors;
+}
+
+FieldComparison compare_fields(const AuditedLog& log, const std::string& first, const std::string& second) {
+  FieldComparison fields;
+  const auto rolls = log.all("roll"), pitches = log.all("pitch");
+  const auto field_at = [&](const std::string& port, double time_s) {
+    const auto axis = [&](const char* name) { return log.at(port, name, time_s, kMostApart_s).value_or(NAN); };
+    return Eigen::Vector3d(axis("field_x"), axis("field_y"), axis("field_z"));
+  };
+  const auto tilt_at = [&](const std::vector<const RecordedChannel*>& tilts, double time_s) {
+    const auto tilt_deg = value_at(tilts.front()->series, time_s, kMostApart_s);
+    return tilt_deg ? *tilt_deg * base::kRadiansPerDegree : NAN;
+  };
+  fields.is_levelled = !rolls.empty() && !pitches.empty();
+  const RecordedChannel* const times = log.find(first, "field_x");
+  if (times == nullptr) return fields;
+  for (const double time_s : times->series.time_s) {
+    const Eigen::Vector3d one_uT = field_at(first, time_s), other_uT = field_at(second, time_s);
+    const double roll_rad = fields.is_levelled ? tilt_at(rolls, time_s) : 0;
+    const double pitch_rad = fields.is_levelled ? tilt_at(pitches, time_s) : 0;
+    if (!one_uT.allFinite() || !other_uT.allFinite() || !std::isfinite(roll_rad + pitch_rad)) continue;
+    const double apart_rad = base::wrapped(calib::levelled_heading(one_uT, roll_rad, pitch_rad) -
+                                           calib::levelled_heading(other_uT, roll_rad, pitch_rad));
+    fields.time_s.push_back(time_s);
+    fields.size_uT.push_back(one_uT.norm());
+    fields.apart_deg.push_back(std::abs(apart_rad) * base::kDegreesPerRadian);
+  }
+  return fields;
+}
+
+}  // namespace navcal::analysis

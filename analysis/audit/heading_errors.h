@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/audit/audited_log.h"
+
+/// Errors of headings by calibrations that the judged readings had no part in.
+namespace navcal::analysis {
+
+struct IronErrors {
+  double worst_rad = 0;  ///< largest mean error of the uncalibrated heading in a sector of 30 degrees
+  /// Largest difference between the headings by the two halves' calibrations; nullopt where one has none.
+  std::optional<double> disagreement_rad;
+  /// Standard deviation over mean of the size of the field, as measured and by the calibration of the other half.
+  std::optional<double> spread_before, spread_after;
+};
+/// Of the field since its last step; `correction` is that of the whole log.
+[[nodiscard]] IronErrors iron_errors(const AuditedLog& log, const calib::FieldCorrection& correction);
+
+/// Largest change of the heading by the field of a current, for the headings of the log.
+[[nodiscard]] double motor_heading_rad(const AuditedLog& log, const calib::MotorCurrentCorrection& motor,
+                                       double current_A);
+
+/// A stated heading less the heading of the calibrated field.
+struct HeadingErrors {
+  std::vector<double> time_s, heading_deg, error_deg;
+  double reference_std_rad = 0;  ///< of the calibrated heading, at its worst heading
+  bool is_absolute = false;      ///< false: the mean is left out
+};
+/// nullopt where a half has no accepted calibration, or the field stepped.
+[[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
+
+/// The fields of two ports at the times of the first.
+struct FieldComparison {
+  std::vector<double> time_s, size_uT, apart_deg;  ///< size of the first; between the headings of both, 0 to 180
+  bool is_levelled = true;                         ///< roll and pitch are known; else the vehicle counts as level
+};
+[[nodiscard]] FieldComparison compare_fields(const AuditedLog& log, const std::string& first,
+                                             const std::string& second);
+
+}  // namespace navcal::analysis

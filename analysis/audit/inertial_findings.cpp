@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "analysis/audit/audit.h"
+#include "base/angles.h"
+
+namespace navcal::analysis {
+namespace {
+
+using base::kDegreesPerRadian;
+using calib::Calibrator;
+
+constexpr double kLeastBias_deg_s = 0.02, kAlone_s = 60;  ///< smallest bias; time of its cost
+constexpr double kLeastScale = 0.02, kTurn_deg = 90;
+constexpr double kSome_m_s2 = 30, kMuch_m_s2 = 60;  ///< vibration at which ArduPilot warns, and at which it fails
+
+/// A bias whose interval leaves out small ones.
+void judge_bias(Finding& finding, const Bounded& bias, bool is_confirmed, bool is_vertical,
+                const AuditedLog& log) {
+  finding.put(bias, "deg/s");
+  const double least = std::min(std::abs(bias.low), std::abs(bias.high));
+  if (!is_confirmed || bias.low * bias.high < 0 || least < kLeastBias_deg_s) return;
+  finding.certainty = Certainty::found;
+  finding.todo = "Calibrate the gyro at rest before each mission.";
+  if (!is_vertical) return;
+  finding.put_heading(std::min(std::abs(bias.value) * kAlone_s, 180.0), log.speed_m_s());
+  finding.sentence += " The cost is that of a minute without a compass.";
+}
+
+/// Bias and scale of a vertical gyro, as the turns of the compass show them.
+void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator,
+                   const char* quantity) {
+  const auto* const report = log.whole.report.find(calibrator);
+  const auto rates = log.all(quantity);
+  if (report == nullptr || rates.empty()) return;
+  Finding of_bias{"gyro.bias", "Bias of the gyro", rates.front()->name()};
+  Finding of_scale{"gyro.scale", "Scale of the gyro", rates.front()->name()};
+  const calib::Quantity *const bias = report->quantity("bias_rad_s"), *const scale = report->quantity("scale");
+  const auto& judgement = report->judgement;
+  if (!judgement.accepted || bias == nullptr || scale == nullptr)
+    return findings.push_back(refused(of_bias, *report));
+  const bool is_confirmed = report->outcome == calib::Outcome::accepted &&
+                            judgement.held_out_quantity == calib::HeldOutQuantity::heading &&
+                            judgement.held_out_after < judgement.held_out_before;
+  const std::string held_out =
+      is_confirmed
+          ? fmt::format(
+                " On held-out readings heading and turn differ by {:.2f} deg as measured and by {:.2f} "
+                "deg corrected.",
+                judgement.held_out_before * kDegreesPerRadian, judgement.held_out_after * kDegreesPerRadian)
+          : std::string();
+  // True rate = scale * measured + bias: at rest the gyro shows -bias / scale.
+  const double rest_deg_s = -bias->value / scale->value * kDegreesPerRadian;
+  of_bias.sentence =
+      fmt::format("The gyro shows {:.4f} deg/s when the vehicle does not turn.{}", rest_deg_s, held_out);
+  judge_bias(of_bias, bounded(rest_deg_s, bias->std * kDegreesPerRadian), is_confirmed, true, log);
+  of_scale.put(bounded(scale->value, scale->std), "");
+  of_scale.sentence = fmt::format("True rate over measured rate is {:.4f}.{}", scale->value, held_out);
+  if (is_confirmed && (*of_scale.low > 1 + kLeastScale || *of_scale.high < 1 - kLeastScale)) {
+    of_scale.certainty = Certainty::found;
+    of_scale.todo = "Multiply the rate by this number.";
+    of_scale.put_heading(kTurn_deg * std::abs(scale->value - 1), log.speed_m_s());
+    of_scale.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg.", kTurn_deg);
+  }
+  findings.push_back(std::move(of_bias));
+  findings.push_back(std::move(of_scale));
+}
+
+/// Means of a channel over thirds of the parts at rest.
+std::vector<double> means_at_rest(const AuditedLog& log, const Series& series) {
+  std::vector<double> means;
+  for (const Interval& interval : log.rest) {
+    for (int part = 0; part < 3; ++part) {
+      const double from_s = interval.from_s + part * interval.length_s() / 3,
+                   to_s = from_s + interval.length_s() / 3;
+      double sum = 0, count = 0;
+      for (std::size_t i = 0; i < series.values.size(); ++i) {
+        if (series.time_s[i] < from_s || series.time_s[i] >= to_s) continue;
+        sum += series.values[i];
+        ++count;
+      }
+      if (count > 0) means.push_back(sum / count);
+    }
+  }
+  return means;
+}
+
+void append_at_rest(std::vector<Finding>& findings, const AuditedLog& log) {
+  for (const char* axis : {"rate_x", "rate_y", "rate_z"}) {
+    for (const RecordedChannel* channel : log.all(axis)) {
+      Finding& finding = findings.emplace_back(Finding{"gyro.rest", "Bias of the gyro at rest", channel->name()});
+      if (const auto bias = mean_bounded(means_at_rest(log, channel->series))) {
+        finding.sentence = fmt::format("At rest it shows {:.4f} deg/s.", bias->value);
+        judge_bias(finding, *bias, true, channel->quantity == "rate_z", log);
+      } else {
+        finding.certainty = Certainty::cannot_say;
+        finding.sentence = "The vehicle was not at rest twice, for ten seconds each.";
+        finding.todo = "Leave the vehicle still for half a minute before and after the mission.";
+      }
+    }
+  }
+}
+
+/// Standard deviation about the mean of each second; of one second in twenty it is larger.
+double vibration_of(const Series& series) {
+  constexpr std::size_t kFewest = 5;
+  std::vector<double> deviations;
+  for (std::size_t begin = 0, end = 0; begin < series.values.size(); begin = end) {
+    double sum = 0, squares = 0;
+    for (end = begin; end < series.values.size() && series.time_s[end] < series.time_s[begin] + 1; ++end)
+      sum += series.values[end];
+    const auto count = static_cast<double>(end - begin);
+    for (std::size_t i = begin; i < end; ++i) squares += std::pow(series.values[i] - sum / count, 2);
+    if (end - begin >= kFewest) deviations.push_back(std::sqrt(squares / count));
+  }
+  return quantile(deviations, 0.95);
+}
+
+/// Number of values at a limit of at least 18 m/s2, and that limit. A limit gathers readings; below a mere maximum
+/// are more than at it.
+std::pair<std::size_t, double> clipped(const std::vector<double>& values) {
+  constexpr std::size_t kFewest = 5;
+  constexpr double kLeast_m_s2 = 18, kSame = 1e-3;
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  const auto beyond = [&](double share) {
+    return std::count_if(values.begin(), values.end(),
+                         [&](double value) { return std::abs(value) >= most * share; });
+  };
+  const auto at_limit = static_cast<std::size_t>(beyond(1 - kSame));
+  const auto beside = static_cast<std::size_t>(beyond(1 - 10 * kSame)) - at_limit;
+  return {most < kLeast_m_s2 || at_limit < kFewest || at_limit < 2 * beside ? 0 : at_limit, most};
+}
+
+void append_forces(std::vector<Finding>& findings, const AuditedLog& log) {
+  for (const RecordedChannel* first : log.all("force_x")) {
+    Finding vibration{"force.vibration", "Vibration", first->port},
+        clipping{"force.clipping", "Clipped forces", first->port};
+    double worst_m_s2 = 0;
+    for (const char* axis : {"force_x", "force_y", "force_z"}) {
+      const RecordedChannel* const channel = log.find(first->port, axis);
+      if (channel == nullptr) continue;
+      worst_m_s2 = std::max(worst_m_s2, vibration_of(channel->series));
+      const auto [count, limit] = clipped(channel->series.values);
+      if (count == 0) continue;
+      clipping.certainty = Certainty::found;
+      clipping.put_count(100 * static_cast<double>(count) / static_cast<double>(channel->series.values.size()),
+                         "%");
+      clipping.sentence +=
+          fmt::format("{} readings of {} stand at {:.1f} m/s2, the end of its range. ", count, axis, limit);
+      clipping.todo = "Widen the range of the accelerometer, or mount it softer.";
+    }
+    vibration.put_count(worst_m_s2, "m/s2");
+    vibration.sentence = fmt::format(
+        "In one second of twenty the worst axis varies by {:.2f} m/s2 or more about its mean.", worst_m_s2);
+    if (worst_m_s2 > kSome_m_s2) {
+      vibration.certainty = worst_m_s2 > kMuch_m_s2 ? Certainty::found : Certainty::likely;
+      vibration.todo = "Balance the propellers and mount the unit softer.";
+    }
+    if (clipping.sentence.empty()) clipping.sentence = "No readings gather at an end of the range.";
+    findings.push_back(std::move(vibration));
+    findings.push_back(std::move(clipping));
+  }
+}
+
+/// A delay that a calibrator finds. Each half of the log is judged for itself, too: what they differ by is part of
+/// the interval.
+void append_delay(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator, Finding finding,
+                  const char* words, double least_s) {
+  constexpr double kRate_deg_s = 20;
+  const auto* const report = log.whole.report.find(calibrator);
+  if (report == nullptr) return;
+  const calib::Quantity* const value = report->quantity("delay_s");
+  if (!report->judgement.accepted || value == nullptr) return findings.push_back(refused(finding, *report));
+  double half_s = 1.96 * value->std;
+  bool are_both = true;
+  for (const AuditedCalibration& half : log.halves) {
+    const auto* const of_half = half.report.find(calibrator);
+    const calib::Quantity* const other = of_half == nullptr ? nullptr : of_half->quantity("delay_s");
+    are_both = are_both && other != nullptr && of_half->judgement.accepted;
+    if (other != nullptr) half_s = std::max(half_s, std::abs(other->value - value->value));
+  }
+  finding.put({value->value, value->value - half_s, value->value + half_s}, "s");
+  finding.sentence = fmt::format("The {} by {:.0f} ms{}.", words, 1000 * value->value,
+                                 are_both ? ", which each half of the log confirms" : "");
+  if (*finding.low > least_s || *finding.high < -least_s) {
+    finding.certainty = are_both ? Certainty::found : Certainty::likely;
+    finding.todo = "Give the later sensor its latency in the configuration of the estimator.";
+    finding.put_heading(std::abs(value->value) * kRate_deg_s, log.speed_m_s());
+    finding.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg/s.", kRate_deg_s);
+  }
+  findings.push_back(std::move(finding));
+}
+
+}  // namespace
+
+std::vector<Finding> inertial_findings(const AuditedLog& log) {
+  std::vector<Finding> findings;
+  append_turned(findings, log, Calibrator::gyro, "rate_z");
+  append_turned(findings, log, Calibrator::gyro_b, "yaw_rate_b");
+  append_at_rest(findings, log);
+  append_forces(findings, log);
+  append_delay(findings, log, Calibrator::compass_delay, {"delay.compass", "Delay of the compass", log.compass},
+               "compass is later than the gyro", 0.05);
+  append_delay(findings, log, Calibrator::course_delay, {"delay.course", "Delay of the receiver", log.compass},
+               "course over ground is later than the heading", 0.3);
+  return findings;
+}
+
+}  // namespace navcal::analysis

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/audit/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "cli/commands.h"
+#include "cli/exit_statuses.h"
+#include "cli/result_file.h"
+#include "cli/window_options.h"
+#include "config/layout/layout_file.h"
+#include "config/vehicle.h"
+#include "identify/conventions/conventions.h"
+#include "report/audit_report.h"
+#include "sim/layout/layout_of.h"
+
+namespace navcal::cli {
+namespace {
+
+struct AuditArguments : WindowOptions {
+  std::vector<std::string> files;
+  std::string vehicle, map, json, report;
+};
+
+/// Conventions that the channels of one recording break; with a layout also those of its commands.
+std::vector<analysis::Finding> convention_findings(const std::string& recording, const AuditArguments& arguments,
+                                                   const analysis::KeepGoing& keep_going) {
+  const bool has_layout = !arguments.vehicle.empty();
+  const config::Layout layout =
+      has_layout ? config::load_layout(arguments.vehicle) : sim::layout_of(config::VehicleSettings{});
+  const auto show = [&](double share) { (void)keep_going("conventions", share); };
+  identify::RecordedMotion motion = identify::load_motion(recording, show, std::nullopt, arguments.window());
+  if (!has_layout) {  // of no known vehicle: the commands tell nothing
+    motion.signals.clear();
+    motion.order_times_s.clear();
+    motion.ordered_fins_rad.clear();
+  }
+  const auto channels = std::count_if(motion.channels.begin(), motion.channels.end(),
+                                      [](const auto& readings) { return !readings.empty(); });
+  const identify::ConventionCheck check = identify::check_conventions(layout, {std::move(motion)}, show);
+  std::vector<analysis::Finding> findings;
+  for (const identify::Convention& convention : check.found) {
+    constexpr double kSure = 0.99;
+    analysis::Finding& finding = findings.emplace_back();
+    finding.name = "convention." + convention.name;
+    finding.title = "Convention";
+    finding.channel = convention.what;
+    finding.certainty = convention.probability >= kSure ? analysis::Certainty::found : analysis::Certainty::likely;
+    finding.sentence = fmt::format("{} (probability {:.3f})", convention.sentence, convention.probability);
+    finding.todo = "Mend unit, sign or frame where the log is written: docs/vehicles.md lists the conventions.";
+  }
+  if (findings.empty()) {
+    const analysis::Finding none{"convention", "Conventions", "all"};
+    findings.push_back(none);
+    findings.back().sentence = "Channels that can be compared agree in unit, sign and frame.";
+    if (channels < 2) findings.back() = none.cannot("There are no two channels to compare.");
+  }
+  return findings;
+}
+
+void audit(const AuditArguments& arguments) {
+  const bool json_only = arguments.json == "-";
+  std::vector<std::filesystem::path> inputs(arguments.files.begin(), arguments.files.end());
+  inputs.insert(inputs.end(), {arguments.vehicle, arguments.map});
+  expect_no_overwriting(inputs, {arguments.json, arguments.report});
+  for (const std::string& output : {arguments.json, arguments.report}) {
+    if (!output.empty() && output != "-") expect_folder_of(output);
+  }
+  const base::Interruptible interruptible;
+  analysis::Audit found;
+  for (const std::string& file : arguments.files) {
+    analysis::Progress progress("audit", analysis::Progress::Answer::at_the_end);
+    const analysis::KeepGoing keep_going = [&](std::string_view part, double share) {
+      progress.show(part, share);
+      return !base::Interruptible::interrupted();
+    };
+    analysis::AuditRequest request{.file = file, .import = {}, .window = arguments.window(), .also = {}};
+    request.import.map = arguments.map;
+    std::vector<analysis::Finding> conventions;
+    request.also = [&](const std::string& recording) {
+      conventions = convention_findings(recording, arguments, keep_going);
+    };
+    with_exit_statuses(
+        [&] {
+          const analysis::AuditedLog log = analysis::load_audited(request, keep_going);
+          found.files.push_back(analysis::audited(log, conventions));
+        },
+        analysis::Exit::bad_input);
+    tell_remarks("navcal", found.files.back().remarks);
+    if (base::Interruptible::interrupted()) break;
+  }
+  const std::string json = arguments.json.empty() ? std::string() : report::audit_json(found);
+  if (!json.empty() && !json_only) write_result(arguments.json, json);
+  print_answer(json_only ? json : report::audit_text(found));
+  if (!arguments.report.empty()) write_result(arguments.report, report::audit_page(found));
+}
+
+}  // namespace
+
+void add_audit(CLI::App& app) {
+  auto arguments = std::make_shared<AuditArguments>();
+  auto* command =
+      app.add_subcommand("audit", "what is wrong with the sensors of a log, what it costs, and what to do");
+  command
+      ->add_option(
+          "FILE", arguments->files,
+          "log or capture of navcal, or a log of another system, known by its content; of several, each is "
+          "compared with the first")
+      ->required();
+  command->add_option("--vehicle", arguments->vehicle, "layout: commands are checked against the motion, too")
+      ->option_text("LAYOUT.toml");
+  command
+      ->add_option("--map", arguments->map,
+                   "meaning of the columns of a CSV file, or of the outputs of another log")
+      ->option_text("FILE.toml");
+  add_window(*command, *arguments);
+  command
+      ->add_option("--json", arguments->json,
+                   "the findings as one JSON object; - is standard output, without text")
+      ->option_text("FILE|-");
+  command->add_option("--report", arguments->report, "page to write, with pictures; needs no other file")
+      ->option_text("FILE.html");
+  command->footer(
+      "Needs no configuration. A finding is judged on parts of the log that it was not fitted to. Ctrl-C ends "
+      "the\n"
+      "reading; what was read is judged. docs/audit.md describes the findings and the JSON keys.\n\n"
+      "Example: navcal audit --report dive.html 00000042.BIN\n"
+      "         navcal audit before.BIN after.BIN");
+  command->callback([arguments] { audit(*arguments); });
+}
+
+}  // namespace navcal::cli

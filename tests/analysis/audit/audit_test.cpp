@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/audit/audit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "analysis/audit/bounded.h"
+
+namespace navcal::analysis {
+namespace {
+
+const Finding* find(const std::vector<Finding>& findings, const std::string& name) {
+  const auto found =
+      std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.name == name; });
+  return found == findings.end() ? nullptr : &*found;
+}
+
+std::vector<double> times(std::size_t count, double period_s) {
+  std::vector<double> made(count);
+  for (std::size_t i = 0; i < count; ++i) made[i] = static_cast<double>(i) * period_s;
+  return made;
+}
+
+AuditedStream stream(std::vector<double> time_s, const std::string& kind = "imu") {
+  AuditedStream made;
+  made.channel = kind;
+  made.kind = kind;
+  made.time_s = std::move(time_s);
+  return made;
+}
+
+RecordedChannel channel(const std::string& port, const std::string& quantity, std::vector<double> values,
+                        double period_s) {
+  for (const NoiseChannel& row : noise_channels()) {
+    if (row.name != quantity) continue;
+    RecordedChannel made{port, quantity, std::string(row.unit), &row, {}, {}};
+    made.series.time_s = times(values.size(), period_s);
+    made.series.values = std::move(values);
+    return made;
+  }
+  throw std::invalid_argument(quantity);
+}
+
+std::vector<double> normal(std::size_t count, double mean, double std) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> one(mean, std);
+  std::vector<double> made(count);
+  for (double& value : made) value = one(random);
+  return made;
+}
+
+bool claims_anything(const AuditedFile& file) {
+  Audit audit;
+  audit.files.push_back(file);
+  return !audit.nothing_found();
+}
+
+TEST(Audit, EmptyLogClaimsNothing) {
+  AuditedLog log;
+  log.file = "empty.cap";
+  const AuditedFile file = audited(log);
+  EXPECT_TRUE(file.findings.empty());
+  EXPECT_FALSE(claims_anything(file));
+}
+
+TEST(Audit, EvenReadingsHaveARateAndNoFinding) {
+  AuditedLog log;
+  log.streams.push_back(stream(times(1000, 0.05)));
+  const auto findings = sampling_findings(log);
+  const Finding* rate = find(findings, "sampling.rate");
+  ASSERT_NE(rate, nullptr);
+  EXPECT_EQ(rate->certainty, Certainty::nothing);
+  EXPECT_NEAR(*rate->value, 20, 1e-6);
+  EXPECT_EQ(findings.size(), 1U);
+}
+
+TEST(Audit, FewReadingsCannotBeJudged) {
+  AuditedLog log;
+  log.streams.push_back(stream(times(3, 0.05)));
+  EXPECT_EQ(sampling_findings(log).at(0).certainty, Certainty::cannot_say);
+}
+
+TEST(Audit, AGapIsCountedWithItsPlace) {
+  AuditedLog log;
+  auto time_s = times(1000, 0.1);
+  for (std::size_t i = 500; i < time_s.size(); ++i) time_s[i] += 3;
+  log.streams.push_back(stream(time_s));
+  const auto findings = sampling_findings(log);
+  const Finding* gap = find(findings, "sampling.gaps");
+  ASSERT_NE(gap, nullptr);
+  EXPECT_EQ(gap->certainty, Certainty::found);
+  EXPECT_NE(gap->sentence.find("3.1 s, from 49.9 s on"), std::string::npos) << gap->sentence;
+  EXPECT_NEAR(*gap->value, 100.0 * 30 / 1029, 0.01);
+  EXPECT_TRUE(gap->picture);
+}
+
+TEST(Audit, UnevenReadingsAreNoGaps) {
+  AuditedLog log;
+  std::vector<double> time_s{0};
+  for (int i = 1; i < 500; ++i) time_s.push_back(time_s.back() + (i % 3 == 0 ? 30 : 5));
+  log.streams.push_back(stream(time_s));
+  const auto findings = sampling_findings(log);
+  EXPECT_EQ(find(findings, "sampling.gaps"), nullptr);
+  EXPECT_NE(find(findings, "sampling.irregular"), nullptr);
+}
+
+TEST(Audit, RepeatedReadingsAndTimesThatGoBackAreCounted) {
+  AuditedLog log;
+  auto repeated = stream(times(1000, 0.1), "compass");
+  repeated.vectors = 1000;
+  repeated.repeated = 500;
+  log.streams.push_back(repeated);
+  auto time_s = times(1000, 0.1);
+  for (std::size_t i = 10; i < time_s.size(); i += 20) std::swap(time_s[i], time_s[i + 1]);
+  log.streams.push_back(stream(time_s));
+  const auto findings = sampling_findings(log);
+  const Finding* found = find(findings, "sampling.repeated");
+  ASSERT_NE(found, nullptr);
+  EXPECT_DOUBLE_EQ(*found->value, 50);
+  EXPECT_NE(find(findings, "sampling.order"), nullptr);
+}
+
+TEST(Audit, ClippedForcesAreFoundAndLargeOnesAreNot) {
+  auto values = normal(5000, 0, 12);
+  AuditedLog free;
+  free.channels.push_back(channel("imu", "force_x", values, 0.01));
+  for (double& value : values) value = std::clamp(value, -19.62, 19.62);
+  AuditedLog clipped;
+  clipped.channels.push_back(channel("imu", "force_x", values, 0.01));
+  EXPECT_EQ(find(inertial_findings(free), "force.clipping")->certainty, Certainty::nothing);
+  const auto findings = inertial_findings(clipped);
+  const Finding* found = find(findings, "force.clipping");
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->certainty, Certainty::found);
+  EXPECT_NE(found->sentence.find("19.6 m/s2"), std::string::npos) << found->sentence;
+}
+
+TEST(Audit, BiasAtRestIsFoundWithItsIntervalAndNotWithoutRest) {
+  AuditedLog log;
+  log.channels.push_back(channel("imu", "rate_x", normal(4000, 0.3, 0.05), 0.05));
+  EXPECT_EQ(find(inertial_findings(log), "gyro.rest")->certainty, Certainty::cannot_say);
+  log.rest = {{0, 40}, {120, 200}};
+  const auto findings = inertial_findings(log);
+  const Finding* bias = find(findings, "gyro.rest");
+  EXPECT_EQ(bias->certainty, Certainty::found);
+  EXPECT_LT(*bias->low, 0.3);
+  EXPECT_GT(*bias->high, 0.3);
+  EXPECT_NEAR(*bias->value, 0.3, 0.01);
+}
+
+AuditedLog with_fixes(double jump_m) {
+  AuditedLog log;
+  std::vector<double> north, east;
+  for (int i = 0; i < 200; ++i) {
+    north.push_back(2.0 * i + (i == 100 ? jump_m : 0));
+    east.push_back(0.1 * std::sin(i));
+  }
+  log.channels.push_back(channel("gps", "north", north, 1));
+  log.channels.push_back(channel("gps", "east", east, 1));
+  log.channels.push_back(channel("gps", "velocity_north", std::vector<double>(200, 2), 1));
+  log.channels.push_back(channel("gps", "velocity_east", std::vector<double>(200, 0), 1));
+  return log;
+}
+
+TEST(Audit, AJumpOfTheReceiverIsFound) {
+  EXPECT_EQ(find(water_findings(with_fixes(0)), "gps.jumps")->certainty, Certainty::nothing);
+  const auto findings = water_findings(with_fixes(80));
+  const Finding* jump = find(findings, "gps.jumps");
+  EXPECT_EQ(jump->certainty, Certainty::found);
+  EXPECT_DOUBLE_EQ(*jump->value, 2);  // there and back
+}
+
+TEST(Audit, DepthAtTheSurfaceNeedsFixes) {
+  AuditedLog log;
+  auto depth = normal(4000, 1.2, 0.05);
+  for (std::size_t i = 2000; i < depth.size(); ++i) depth[i] += 8;  // after the last fix
+  log.channels.push_back(channel("gauge", "gauge_depth", depth, 0.1));
+  EXPECT_EQ(find(water_findings(log), "depth.surface")->certainty, Certainty::cannot_say);
+  for (const RecordedChannel& one : with_fixes(0).channels) log.channels.push_back(one);
+  const auto findings = water_findings(log);
+  const Finding* offset = find(findings, "depth.surface");
+  EXPECT_EQ(offset->certainty, Certainty::likely);
+  EXPECT_NEAR(*offset->value, 1.2, 0.05);
+  // A vehicle with fixes at all times, in the air say, tells nothing of the surface.
+  log.channels.front().series.values.assign(4000, 9.7);
+  EXPECT_EQ(find(water_findings(log), "depth.surface")->certainty, Certainty::cannot_say);
+}
+
+TEST(Audit, ScaleAndZerosOfADopplerLog) {
+  AuditedLog log = with_fixes(0);
+  auto ahead = normal(2000, 2 / 1.1, 0.01);
+  for (std::size_t i = 0; i < 200; ++i) ahead[i] = 0;
+  log.channels.push_back(channel("dvl", "bottom_velocity_1", ahead, 0.1));
+  auto across = std::vector<double>(2000, 0);
+  log.channels.push_back(channel("dvl", "bottom_velocity_2", across, 0.1));
+  const auto findings = water_findings(log);
+  const Finding* scale = find(findings, "dvl.scale");
+  ASSERT_NE(scale, nullptr);
+  EXPECT_EQ(scale->certainty, Certainty::likely);
+  EXPECT_NEAR(*scale->value, 1.1, 0.01);
+  EXPECT_EQ(find(findings, "dvl.zeros")->certainty, Certainty::likely);
+  EXPECT_DOUBLE_EQ(*find(findings, "dvl.zeros")->value, 10);
+}
+
+TEST(Audit, TwoCompassesThatPointApart) {
+  AuditedLog log;
+  for (const char* port : {"compass", "compass2"}) {
+    const double angle = std::string(port) == "compass" ? 0 : 0.2;
+    log.channels.push_back(channel(port, "field_x", normal(1000, 40 * std::cos(angle), 0.1), 0.1));
+    log.channels.push_back(channel(port, "field_y", normal(1000, 40 * std::sin(angle), 0.1), 0.1));
+    log.channels.push_back(channel(port, "field_z", normal(1000, 0, 0.1), 0.1));
+  }
+  const auto findings = compass_findings(log);
+  const Finding* pair = find(findings, "compass.pair");
+  ASSERT_NE(pair, nullptr);
+  EXPECT_EQ(pair->certainty, Certainty::found);
+  EXPECT_NEAR(*pair->value, 11.46, 0.1);
+  EXPECT_EQ(find(findings, "compass.size")->certainty, Certainty::nothing);
+}
+
+Finding valued(const std::string& name, double value, double half) {
+  Finding finding{name, name, "imu"};
+  finding.put({value, value - half, value + half}, "deg");
+  return finding;
+}
+
+std::vector<AuditChange> changes(const Finding& before, const Finding& after) {
+  Audit audit;
+  audit.files.resize(2);
+  audit.files[0].findings = {before};
+  audit.files[1].findings = {after};
+  return audit.changes();
+}
+
+TEST(Audit, ChangesAreTellingBeyondBothIntervalsOnly) {
+  EXPECT_TRUE(changes(valued("a", 1, 0.5), valued("a", 1.6, 0.5)).empty());
+  const auto other = changes(valued("a", 1, 0.5), valued("a", 2, 0.5));
+  ASSERT_EQ(other.size(), 1U);
+  EXPECT_NEAR(other[0].low, 1 - std::sqrt(0.5), 1e-9);
+  EXPECT_TRUE(changes(valued("a", 1, 0), valued("a", 2, 0)).empty());
+  EXPECT_TRUE(changes(valued("a", 1, 0.1), valued("b", 2, 0.1)).empty());
+}
+
+TEST(Audit, TheMostCostlyComesFirst) {
+  std::vector<Finding> findings{valued("nothing", 1, 0.1), valued("cheap", 1, 0.1), valued("dear", 1, 0.1)};
+  findings[1].certainty = findings[2].certainty = Certainty::found;
+  findings[1].put_heading(1, 1);
+  findings[2].put_heading(20, 1);
+  sort_findings(findings);
+  EXPECT_EQ(findings[0].name, "dear");
+  EXPECT_EQ(findings[2].name, "nothing");
+  EXPECT_NEAR(*findings[0].position_m, 600 * 2 * std::sin(10 * 3.14159265358979 / 180), 1e-6);
+}
+
+TEST(Bounded, IntervalOfAMeanHoldsInNineteenOfTwenty) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> one(5, 2);
+  int holds = 0;
+  constexpr int kTrials = 4000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> numbers(10);
+    for (double& number : numbers) number = one(random);
+    const auto mean = mean_bounded(numbers);
+    holds += mean->low <= 5 && mean->high >= 5 ? 1 : 0;
+  }
+  EXPECT_NEAR(holds / double{kTrials}, 0.95, 0.01);
+  EXPECT_FALSE(mean_bounded({1, 2, 3}));
+  EXPECT_FALSE(root_mean_square_bounded({}, {}));
+}
+
+}  // namespace
+}  // namespace navcal::analysis
