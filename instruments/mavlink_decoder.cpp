@@ -165,12 +165,14 @@ void MavlinkDecoder::take(int instance, const ImuSample& imu, const std::optiona
 
 std::optional<Vector3> MavlinkDecoder::measured_uT(int instance, const Vector3& sent_uT) {
   Unit& unit = units_.at(static_cast<std::size_t>(instance));
-  if (!unit.is_corrected) {
+  if (!unit.is_corrected && calibration_ != Calibration::kept) {
     if (const auto measured = compass_.measured_uT(instance, sent_uT, current_A_)) return measured;
     if (!unit.waits_since_ns) unit.waits_since_ns = time_ns_;
-    if (waits_ && time_ns_ && std::abs(*time_ns_ - *unit.waits_since_ns) < kParameters_ns) return std::nullopt;
-    unit.is_corrected = true;
+    if (calibration_ == Calibration::waited_for && time_ns_ &&
+        std::abs(*time_ns_ - *unit.waits_since_ns) < kParameters_ns)
+      return std::nullopt;
   }
+  unit.is_corrected = true;
   return sent_uT;
 }
 

@@ -33,8 +33,10 @@ class MavlinkDecoder {
  public:
   static constexpr int kPrimaryBarometer = 3;  ///< instance of HIGHRES_IMU's pressure
 
-  /// `waits_for_parameters`: false where all that there are have been taken before.
-  explicit MavlinkDecoder(bool waits_for_parameters = true) : waits_(waits_for_parameters) {}
+  /// The autopilot's own calibration of its compass: it is undone by parameters that are waited for, or have been
+  /// taken before if there are any; or it is kept.
+  enum class Calibration : std::uint8_t { waited_for, taken_before, kept };
+  explicit MavlinkDecoder(Calibration calibration = Calibration::waited_for) : calibration_(calibration) {}
   /// A parameter of the autopilot that is known from elsewhere.
   void take_parameter(std::string_view name, double value) { compass_.take(name, value); }
 
@@ -51,7 +53,7 @@ class MavlinkDecoder {
     std::optional<Vector3> field_uT;
     std::int64_t field_ns = 0;                       ///< when it was taken
     std::optional<std::int64_t> waits_since_ns;      ///< for the parameters
-    bool is_corrected = false;                       ///< the parameters did not come
+    bool is_corrected = false;                       ///< the calibration is kept, or its parameters did not come
     std::optional<std::int64_t> high_resolution_ns;  ///< newest HIGHRES_IMU
   };
 
@@ -81,7 +83,7 @@ class MavlinkDecoder {
   std::optional<std::int64_t> time_ns_;             ///< likewise
   std::array<Unit, kUnits> units_{};
   AutopilotCompass compass_;
-  bool waits_;
+  Calibration calibration_;
   std::optional<double> current_A_;  ///< newest of battery 1
   std::uint64_t fix_us_ = 0;
   bool has_battery_status_ = false;

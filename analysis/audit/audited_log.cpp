@@ -148,9 +148,11 @@ std::string readable(const AuditRequest& request, const TemporaryFolder& folder,
   const bool is_foreign = is_foreign_log(request.file, request.import);
   const auto device = is_foreign ? std::nullopt : device_of(request.file);
   if (!is_foreign && !device) return request.file;
+  ImportOptions import = request.import;
+  import.keeps_calibration = true;  // iron that the autopilot corrects is no finding
   const std::string imported = (folder.path() / "audited.mcap").string();
   const ImportReport report = device ? import_bytes(request.file, *device, 0, imported, progress)
-                                     : import_log(request.file, imported, request.import, progress);
+                                     : import_log(request.file, imported, import, progress);
   log.remarks = report.remarks;
   if (report.utc == ImportReport::Utc::unknown)
     log.remarks.emplace_back("the file states no UTC: times count from 2000-01-01");

@@ -22,11 +22,16 @@ ImportFindings read_glider(std::string_view file, const ImportOptions& options, 
   return read_slocum(file, options.folders, sink);
 }
 
-template <ImportFindings (*Read)(std::string_view, ImportSink&, MotorChannels&)>
+template <auto Read>
 ImportFindings read_with_channels(std::string_view file, const ImportOptions& options, ImportSink& sink) {
   MotorChannels channels;
   if (!options.map.empty()) channels = MotorChannels(config::load_channel_map(options.map));
-  ImportFindings findings = Read(file, sink, channels);
+  ImportFindings findings = [&] {
+    if constexpr (requires { Read(file, sink, channels, true); })
+      return Read(file, sink, channels, !options.keeps_calibration);
+    else
+      return Read(file, sink, channels);
+  }();
   channels.expect_all_found();
   for (std::string& remark : channels.remarks()) findings.remarks.push_back(std::move(remark));
   return findings;

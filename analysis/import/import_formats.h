@@ -14,6 +14,7 @@ struct ImportOptions {
   std::string
       map;  ///< file that gives columns of a CSV file, or channels of another log, their meaning; empty: none
   std::vector<std::filesystem::path> folders{};  ///< where a Slocum's lists of sensors are
+  bool keeps_calibration = false;  ///< fields of a telemetry log stay as the autopilot has corrected them
 };
 
 /// A kind of log of another system.

@@ -81,8 +81,8 @@ std::string servo_name(const MavlinkReading& output) { return fmt::format("servo
 
 class MavlinkFile {
  public:
-  MavlinkFile(std::string_view file, ImportSink& sink, MotorChannels& channels)
-      : file_(file), sink_(sink), channels_(channels) {}
+  MavlinkFile(std::string_view file, ImportSink& sink, MotorChannels& channels, bool undoes_calibration)
+      : file_(file), sink_(sink), channels_(channels), undoes_calibration_(undoes_calibration) {}
   ImportFindings read();
 
  private:
@@ -98,7 +98,9 @@ class MavlinkFile {
   MotorChannels& channels_;
   ServoParameters servos_;
   ImportFindings findings_;
-  instruments::MavlinkDecoder decoder_{false};
+  using Calibration = instruments::MavlinkDecoder::Calibration;
+  bool undoes_calibration_;
+  instruments::MavlinkDecoder decoder_{undoes_calibration_ ? Calibration::taken_before : Calibration::kept};
   std::uint64_t untrimmed_ = 0;
 };
 
@@ -129,8 +131,8 @@ ImportFindings MavlinkFile::read() {
     findings_.remarks.push_back(fmt::format(
         "{} frames had the checksum of before their zeros were cut (BlueOS), and were taken", untrimmed_));
   if (decoder_.has_corrected_fields())
-    findings_.remarks.emplace_back(
-        "fields of the compass are as the autopilot has corrected them: the log lacks its COMPASS_ parameters");
+    findings_.remarks.push_back(fmt::format("fields of the compass are as the autopilot has corrected them{}",
+                                            undoes_calibration_ ? ": the log lacks its COMPASS_ parameters" : ""));
   if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
   return std::move(findings_);
 }
@@ -195,8 +197,9 @@ void MavlinkFile::compare_clocks(const Payload& payload, std::int64_t time_ns) {
 
 bool is_mavlink_log(std::string_view head) { return message_in(head).verdict == mavlink::Found::Verdict::frame; }
 
-ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels) {
-  return MavlinkFile(file, sink, channels).read();
+ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels,
+                                bool undoes_calibration) {
+  return MavlinkFile(file, sink, channels, undoes_calibration).read();
 }
 
 }  // namespace navcal::analysis

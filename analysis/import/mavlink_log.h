@@ -14,6 +14,8 @@ namespace navcal::analysis {
 /// MAVLink telemetry log (.tlog): frames of version 1 or 2, each behind the UTC of the computer that received it,
 /// eight bytes, big endian, in microseconds. instruments::MavlinkDecoder reads them, as it does live. `channels`
 /// become shaft and fins. docs/import.md has the table.
-[[nodiscard]] ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels);
+/// `undoes_calibration`: takes the autopilot's own calibration off the fields, where the log has its parameters.
+[[nodiscard]] ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels,
+                                              bool undoes_calibration = true);
 
 }  // namespace navcal::analysis
