@@ -139,6 +139,11 @@ TEST(MavlinkLog, TheCalibrationOfTheAutopilotIsUndoneFromTheFirstFieldOn) {
   expect_vector(sink.of_port("compass2").at(0).line["field_body_uT"], 20, 2, 43);
   for (const std::string& remark : findings.remarks)
     EXPECT_EQ(remark.find("COMPASS_"), std::string::npos) << remark;
+  RecordingSink kept;
+  MotorChannels none;
+  const auto of_kept = read_mavlink_log(log, kept, none, false);
+  expect_vector(kept.of_port("compass2").at(0).line["field_body_uT"], 20, -5, 43);
+  EXPECT_EQ(of_kept.remarks.at(1), "fields of the compass are as the autopilot has corrected them");
 }
 
 // Bytes that pymavlink's CRC gives for the heartbeat of the MAVLink guide: X.25 of "123456789" is 0x6F91 before
