@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace navcal::gap {
@@ -55,6 +56,25 @@ TEST(Blocks, ASmallOneIsNotTakenForTolerance) {
 
 TEST(Blocks, OneThatIsNotThereForetellsNothing) {
   for (const double gain : MadeUp(0).gains()) EXPECT_LT(gain, 3);
+}
+
+// A gyro's bias belongs to one recording: the others do not tell it, and it looks there as if the effect were
+// less.
+TEST(Blocks, ABiasOfOneRecordingIsNoLossOfTheOthers) {
+  MadeUp made(1);
+  const auto member = parameter_indices(made.library, made.effects).front();
+  const Eigen::Index rows = made.linear.residual.size(), half = rows / 2;
+  made.priors.spike.head<Library::kBiases>() = made.priors.slab.head<Library::kBiases>();
+  made.linear.design.leftCols<Library::kBiases>().setZero();
+  made.linear.design.col(0).head(half) =
+      made.linear.design.col(member).head(half) * made.priors.slab[member] / made.priors.slab[0];
+  std::mt19937_64 dice(2);
+  std::normal_distribution<double> normal;
+  for (Eigen::Index i = 0; i < half; ++i) made.linear.design(i, 0) += normal(dice) / made.priors.slab[0];
+  made.linear.residual -= 3 * made.priors.slab[0] * made.linear.design.col(0);
+  const std::array<Eigen::Index, 2> recordings{half, rows - half};
+  const auto gains = gains_of_recordings(made.effects, {made.linear, made.library, made.priors}, recordings);
+  for (const double gain : gains) EXPECT_GT(gain, 100);
 }
 
 }  // namespace
