@@ -80,7 +80,9 @@ int main(int argc, char** argv) {
   app.footer(
       "Start with your vehicle or device (bluerov2, ros2, gpsd, nmea):\n"
       "  navcal start --for bluerov2\n\n"
-      "Start without one:\n"
+      "Start with a log (ArduPilot, PX4, ROS 2, navcal):\n"
+      "  navcal audit dive.BIN\n\n"
+      "Start without either:\n"
       "  navcal simulate --mission calibration_swing --effect hard_iron=1 -o dive.cap\n"
       "  navcal calibrate dive.cap\n"
       "  navcal view dive.cap\n\n"
