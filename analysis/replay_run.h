@@ -35,7 +35,9 @@ class ReplayRun {
   /// How far the open recording has been read, 0 to 1.
   [[nodiscard]] double progress() const { return recording_->progress(); }
   /// Of one port of the settings.
-  [[nodiscard]] pipeline::PortStatistics statistics(std::uint16_t port) const { return pipeline_.statistics(port); }
+  [[nodiscard]] pipeline::PortStatistics statistics(std::uint16_t port) const {
+    return pipeline_.statistics(port);
+  }
   /// Irregularities so far, each with its file.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 

@@ -81,7 +81,8 @@ Finding iron_finding(const AuditedLog& log) {
   const double worst_deg = errors.worst_rad * kDegreesPerRadian, low_deg = std::max(worst_deg - half_deg, 0.0);
   finding.put({worst_deg, low_deg, worst_deg + half_deg}, "deg");
   finding.sentence = fmt::format(
-      "Iron of {} uT, or a compass that is mounted askew, turns the heading of the field by up to {:.1f} deg. {}",
+      "Iron of {} uT, or a steady current or a mounting askew that look like it, turns the heading of the field "
+      "by up to {:.1f} deg. {}",
       vector_text(correction->offset_uT, 1), worst_deg, held_out.words);
   if (report->outcome == calib::Outcome::no_better || low_deg < kLeastHeading_deg) return finding;
   finding.certainty = held_out.is_worse    ? Certainty::cannot_say

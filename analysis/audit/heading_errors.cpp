@@ -58,7 +58,7 @@ constexpr double kMostApart_s = 0.5;
 }  // namespace
 
 IronErrors iron_errors(const AuditedLog& log, const FieldCorrection& correction) {
-  constexpr std::size_t kSectors = 12, kFewest = 3;
+  constexpr std::size_t kSectors = 36, kFewest = 3;
   IronErrors errors;
   const auto& segments = log.whole.report.segments;
   const auto fields = tilted_fields(log.whole.samples, segments.empty() ? 0 : segments.back().begin_utc_ns);

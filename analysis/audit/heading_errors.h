@@ -11,7 +11,7 @@
 namespace navcal::analysis {
 
 struct IronErrors {
-  double worst_rad = 0;  ///< largest mean error of the uncalibrated heading in a sector of 30 degrees
+  double worst_rad = 0;  ///< largest mean error of the uncalibrated heading in a sector of ten degrees
   /// Largest difference between the headings by the two halves' calibrations; nullopt where one has none.
   std::optional<double> disagreement_rad;
   /// Standard deviation over mean of the size of the field, as measured and by the calibration of the other half.

@@ -154,9 +154,13 @@ void append_forces(std::vector<Finding>& findings, const AuditedLog& log) {
           fmt::format("{} readings of {} stand at {:.1f} m/s2, the end of its range. ", count, axis, limit);
       clipping.todo = "Widen the range of the accelerometer, or mount it softer.";
     }
-    vibration.put_count(worst_m_s2, "m/s2");
-    vibration.sentence = fmt::format(
-        "In one second of twenty the worst axis varies by {:.2f} m/s2 or more about its mean.", worst_m_s2);
+    if (worst_m_s2 > 0) {
+      vibration.put_count(worst_m_s2, "m/s2");
+      vibration.sentence = fmt::format(
+          "In one second of twenty the worst axis varies by {:.2f} m/s2 or more about its mean.", worst_m_s2);
+    } else {
+      vibration = vibration.cannot("There are fewer than five readings a second, or all are equal.");
+    }
     if (worst_m_s2 > kSome_m_s2) {
       vibration.certainty = worst_m_s2 > kMuch_m_s2 ? Certainty::found : Certainty::likely;
       vibration.todo = "Balance the propellers and mount the unit softer.";

@@ -138,6 +138,14 @@ TEST(Audit, ClippedForcesAreFoundAndLargeOnesAreNot) {
   EXPECT_NE(found->sentence.find("19.6 m/s2"), std::string::npos) << found->sentence;
 }
 
+TEST(Audit, SlowReadingsTellNoVibration) {
+  AuditedLog log;
+  log.channels.push_back(channel("imu", "force_x", normal(500, 0, 1), 0.5));
+  EXPECT_EQ(find(inertial_findings(log), "force.vibration")->certainty, Certainty::cannot_say);
+  log.channels = {channel("imu", "force_x", normal(5000, 0, 40), 0.01)};
+  EXPECT_EQ(find(inertial_findings(log), "force.vibration")->certainty, Certainty::likely);
+}
+
 TEST(Audit, BiasAtRestIsFoundWithItsIntervalAndNotWithoutRest) {
   AuditedLog log;
   log.channels.push_back(channel("imu", "rate_x", normal(4000, 0.3, 0.05), 0.05));
