@@ -14,7 +14,7 @@
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/result_file.h"
-#include "cli/window_options.h"
+#include "cli/shared_options.h"
 #include "config/layout/layout_file.h"
 #include "config/vehicle.h"
 #include "identify/conventions/conventions.h"

@@ -233,11 +233,11 @@ SignalKModel::Values SignalKModel::compass(const json& compass) const {
   // A device that says true headings has its own declination in them: it says nothing magnetic.
   if (!said || flag_in(compass, "heading_is_true") != 0.0) return {};
   const double magnetic = base::positive_angle(calibrated.value_or(*said));
-  const auto deviation = calibrated ? std::optional(base::wrapped(*calibrated - *said)) : std::nullopt;
+  const json deviation = calibrated ? json(base::wrapped(*calibrated - *said)) : json();
   return {{"navigation.headingMagnetic", magnetic},
           {"navigation.headingMagnetic.standardError", signalk_number(number_in(compass, "heading_std_rad"))},
           {"navigation.headingCompass", base::positive_angle(*said)},
-          {"navigation.magneticDeviation", signalk_number(deviation)}};
+          {"navigation.magneticDeviation", deviation}};
 }
 
 }  // namespace navcal::web
