@@ -44,7 +44,8 @@ std::string Arrivals::came(double seconds) const {
                           shown(count.age_s * ms_each, 1));
   }
   std::string served;
-  for (const auto& [role, device] : health_.value("sources", nlohmann::json::object()).items()) {
+  const nlohmann::json sources = health_.value("sources", nlohmann::json::object());
+  for (const auto& [role, device] : sources.items()) {
     if (device == port_) served += (served.empty() ? "" : ", ") + role;
   }
   if (!served.empty()) out += "  serves " + served + "\n";
