@@ -97,6 +97,79 @@ TEST(Magnetometer, AStepLargerThanTheFieldIsFoundWithItsSizeAndItsReturn) {
   }
 }
 
+TEST(Magnetometer, AStepOfAnySizeIsToldWithItsSizeAtOnceAndSoIsTheReturn) {
+  int told = 0, right = 0, returned = 0, steps = 0;
+  for (const double size : {6.0, 14.0, 27.0, 45.0, 58.0}) {
+    for (std::uint64_t seed = 60; seed < 66; ++seed) {
+      Random random(seed);
+      std::normal_distribution<double> normal;
+      const Eigen::Vector3d size_uT =
+          size * Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+      const int first = static_cast<int>(50 * (seed - 60));
+      Magnetometer magnetometer{Magnetometer::Parameters{}};
+      feed(magnetometer, tumbling(300, first, kBefore, random));
+      for (const double sign : {1.0, -1.0}) {
+        const Eigen::Vector3d from_uT = sign > 0 ? kBefore : Eigen::Vector3d(kBefore + size_uT);
+        const int begin = first + (sign > 0 ? 300 : 705);
+        for (int i = 0; i < 5; ++i)
+          feed(magnetometer, tumbling(1, begin + i, from_uT + sign * size_uT * (i + 0.5) / 5, random));
+        const auto before = magnetometer.field_steps();
+        feed(magnetometer, tumbling(35, begin + 5, from_uT + sign * size_uT, random));
+        ++steps;
+        if (magnetometer.field_steps() == before + 1) {
+          ++told;
+          if ((magnetometer.last_step()->size_uT - sign * size_uT).norm() < 0.15 * size + 1) ++right;
+          if (sign < 0 && magnetometer.last_step()->returned) ++returned;
+        }
+        if (sign > 0) feed(magnetometer, tumbling(365, begin + 40, from_uT + size_uT, random));
+      }
+    }
+  }
+  // Within four seconds, the half second of the change included; the estimate of the size right at once.
+  EXPECT_GE(told, 0.9 * steps);
+  EXPECT_GE(right, 0.95 * told);
+  EXPECT_GE(returned, 0.9 * steps / 2);
+}
+
+TEST(Magnetometer, IronThatIsPassedIsNoStep) {
+  std::size_t steps = 0;
+  for (std::uint64_t seed = 70; seed < 73; ++seed) {
+    Random random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Magnetometer magnetometer{Magnetometer::Parameters{}};
+    double heading = 0, wanted = 0, nearest_s = 30, wide_s = 1;
+    Eigen::Vector3d peak_uT(5, 0, 0);
+    for (int i = 0; i < 6000; ++i) {
+      const double time_s = 0.1 * i, before = heading;
+      if (i % 80 == 0) wanted += 1.6 * uniform(random);
+      heading += std::clamp(0.15 * (wanted - heading), -0.12, 0.12);
+      if (time_s > nearest_s + 5) {
+        nearest_s = time_s + 10 + 5 * uniform(random);
+        wide_s = 1 + 0.5 * uniform(random);
+        peak_uT = 6 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      }
+      const Attitude attitude{heading, 0.08 * std::sin(5.3 * time_s), 0.07 * std::sin(4.1 * time_s + 1)};
+      FieldReading reading = field_on({attitude}, Iron{kBefore, Eigen::Matrix3d::Identity()}, random).front();
+      const Eigen::Matrix3d to_body = (Eigen::AngleAxisd(attitude.heading_rad, Eigen::Vector3d::UnitZ()) *
+                                       Eigen::AngleAxisd(attitude.pitch_rad, Eigen::Vector3d::UnitY()) *
+                                       Eigen::AngleAxisd(attitude.roll_rad, Eigen::Vector3d::UnitX()))
+                                          .toRotationMatrix()
+                                          .transpose();
+      reading.field_body_uT += to_body * peak_uT / std::pow(1 + std::pow((time_s - nearest_s) / wide_s, 2), 1.5);
+      TurnStep turn;
+      turn.time_s = time_s;
+      turn.begins_segment = i == 0;
+      turn.duration_s = 0.1;
+      turn.measured_angle_rad = heading - before;
+      magnetometer.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad, turn);
+    }
+    magnetometer.settle();
+    steps += magnetometer.history().steps().size();
+  }
+  EXPECT_LE(steps, 1U) << "in half an hour";
+}
+
 TEST(Magnetometer, AMagnetThatComesWhileTheHullRestsIsFound) {
   for (std::uint64_t seed = 40; seed < 44; ++seed) {
     Random random(seed);
