@@ -37,6 +37,7 @@ void add_emulate(CLI::App& app);
 void add_play(CLI::App& app);
 
 // Group: Set up
+void add_start(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_ports(CLI::App& app);
 void add_devices(CLI::App& app);

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -19,6 +14,7 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/decode_input.h"
+#include "cli/result_file.h"
 #include "config/described/description_file.h"
 #include "record/log/mcap_format.h"
 
@@ -105,20 +101,6 @@ void check(const CheckArguments& arguments) {
   std::fputs(
       base::printable(arguments.json ? analysis::to_json(findings) : analysis::to_text(findings), "\n").c_str(),
       stdout);
-}
-
-/// Writes a new file; one that is there already is never written over.
-void write_new(const std::string& file, const std::string& text) {
-  const auto refused = [&](const std::string& why) {
-    return analysis::Failure(analysis::Exit::usage, file + ": " + why);
-  };
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0)
-    throw refused(errno == EEXIST ? "it is there already, and is not written over" : std::strerror(errno));
-  std::FILE* const out = ::fdopen(descriptor, "w");
-  const bool written = std::fputs(text.c_str(), out) >= 0;
-  if (std::fclose(out) != 0 || !written)
-    throw analysis::Failure(analysis::Exit::failed, file + ": cannot be written");
 }
 
 void begin(const NewArguments& arguments) {

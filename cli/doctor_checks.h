@@ -60,6 +60,9 @@ struct Account {
 /// Checks where a port is, who may open it, who holds it, and how long its adapter delays bytes.
 [[nodiscard]] Finding check_port(const config::PortSettings& settings, const Account& account);
 
+/// True when nobody listens on this TCP port.
+[[nodiscard]] bool is_free(std::uint16_t port, const std::filesystem::path& proc = "/proc");
+
 /// Checks who listens on the address of the status socket. `proc` and `etc` stand for these folders of the
 /// system.
 [[nodiscard]] Finding check_status_port(const config::StatusSettings& settings,

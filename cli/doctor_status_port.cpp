@@ -33,6 +33,11 @@ std::optional<std::string> listening_inode(const fs::path& table, std::uint16_t 
   return std::nullopt;
 }
 
+std::optional<std::string> inode_of(std::uint16_t port, const fs::path& proc) {
+  const auto inode = listening_inode(proc / "net/tcp", port);
+  return inode ? inode : listening_inode(proc / "net/tcp6", port);
+}
+
 /// Name of the program with this socket, as far as its process is visible.
 std::string program_with(const fs::path& proc, const std::string& inode) {
   const std::string link = "socket:[" + inode + "]";
@@ -54,11 +59,12 @@ std::string program_with(const fs::path& proc, const std::string& inode) {
 
 }  // namespace
 
+bool is_free(std::uint16_t port, const fs::path& proc) { return !inode_of(port, proc); }
+
 Finding check_status_port(const config::StatusSettings& settings, const fs::path& proc, const fs::path& etc) {
   const std::string topic = "status socket";
   const std::string place = fmt::format("TCP port {}", settings.port);
-  auto inode = listening_inode(proc / "net/tcp", settings.port);
-  if (!inode) inode = listening_inode(proc / "net/tcp6", settings.port);
+  const auto inode = inode_of(settings.port, proc);
   if (!inode) return good(topic, place + " is free");
 
   const std::string mend = "sudo systemctl disable --now gpsd.socket gpsd.service, or choose another status.port";

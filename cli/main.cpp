@@ -29,7 +29,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Start with (no vehicle is needed):\n"
+      "Start with your vehicle or device (bluerov2, ros2, gpsd, nmea):\n"
+      "  navcal start --for bluerov2\n\n"
+      "Start without one:\n"
       "  navcal simulate --mission calibration_swing --effect hard_iron=1 -o dive.cap\n"
       "  navcal calibrate dive.cap\n"
       "  navcal view dive.cap\n\n"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/result_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -76,6 +78,19 @@ void write_result(const fs::path& file, std::string_view content) {
   record::WholeFile whole(file);
   whole.write(content);
   whole.commit();
+}
+
+void write_new(const fs::path& file, const std::string& text) {
+  const auto refused = [&](const std::string& why) {
+    return analysis::Failure(analysis::Exit::usage, file.string() + ": " + why);
+  };
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+    throw refused(errno == EEXIST ? "it is there already, and is not written over" : std::strerror(errno));
+  std::FILE* const out = ::fdopen(descriptor, "w");
+  const bool written = std::fputs(text.c_str(), out) >= 0;
+  if (std::fclose(out) != 0 || !written)
+    throw analysis::Failure(analysis::Exit::failed, file.string() + ": cannot be written");
 }
 
 void print_answer(std::string_view text) {

@@ -25,6 +25,10 @@ void expect_not_ending(const std::filesystem::path& output, std::string_view end
 /// Whole or not at all. Throws std::system_error.
 void write_result(const std::filesystem::path& file, std::string_view content);
 
+/// Writes a new file. Throws Failure when one is there already (usage), which is never written over, or when it
+/// cannot be written.
+void write_new(const std::filesystem::path& file, const std::string& text);
+
 /// Text on standard output, printable. Throws Failure when it cannot be written.
 void print_answer(std::string_view text);
 
