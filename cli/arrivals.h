@@ -27,7 +27,7 @@ class Arrivals {
   void take(std::string_view line);
   /// State of the port; for each kind of sample the rate over `seconds`, the mean standard error of its times and
   /// its mean age on arrival; the quantities that the port serves, and UTC.
-  [[nodiscard]] std::string came(double seconds) const;
+  [[nodiscard]] std::string came() const;
   /// One line for each expected quantity that did not come, with what to do. `silent` is the advice for a port
   /// from which nothing comes at all. Empty: all came.
   [[nodiscard]] std::string missing(const std::vector<ExpectedQuantity>& expected,
@@ -36,6 +36,7 @@ class Arrivals {
  private:
   struct Count {
     int samples = 0;
+    double first_s = 0, last_s = 0;    ///< arrivals
     double time_std_s = 0, age_s = 0;  ///< sums
   };
 

@@ -20,7 +20,9 @@
 #include "cli/start_plan.h"
 #include "cli/watch_stream.h"
 #include "config/load.h"
-#include "fleet/slurm.h"
+#include "fleet/command_output.h"
+#include "ports/finder.h"
+#include "ports/holder.h"
 #include "validation/child.h"
 
 namespace navcal::cli {
@@ -122,7 +124,15 @@ void check_configuration(const std::string& navcald, const std::string& file) {
   if (findings[0].severity == Finding::Severity::good && !is_free(settings.status.port))
     findings[0] = fault(findings[0].topic, findings[0].found,
                         "`navcal watch` shows what runs there; --port N runs another navcald beside it");
-  for (const auto& port : settings.ports) findings.push_back(check_port(port, own_account()));
+  for (const auto& port : settings.ports) {
+    findings.push_back(check_port(port, own_account()));
+    std::string why;
+    const auto found = port.address.empty() ? ports::find_port(port, why) : std::nullopt;
+    const std::string holders = found ? ports::visible_holders_of(found->path) : "";
+    if (!holders.empty())  // another navcald, too
+      findings.back() =
+          fault("port " + port.name, found->path + " is held by " + holders, "end that program first");
+  }
   if (count_of(findings, Finding::Severity::fault) == 0) return;
   print_answer(doctor_text(findings));
   fail_start("nothing was started; the configuration is kept");
@@ -148,7 +158,7 @@ void listen(const StartPlan& plan, OwnProgram& daemon, const StartCommandOptions
     if (line && !begin) begin = Clock::now();
     if (begin) passed = Clock::now() - *begin;
   }
-  print_answer(arrivals.came(passed.count()) + "\n" + arrivals.missing(plan.expected, plan.silent));
+  print_answer(arrivals.came() + "\n" + arrivals.missing(plan.expected, plan.silent));
 }
 
 std::vector<std::string> ros2_command(const StartRequest& request, const std::string& samples) {
@@ -165,8 +175,7 @@ std::vector<std::string> ros2_command(const StartRequest& request, const std::st
 /// How the installed service is started with a configuration that was tried.
 std::string service_lines(const StartPlan& plan, const StartRequest& request) {
   std::string lines = "navcald ran for this trial only. The service is started by\n";
-  if (plan.toml.find("\naddress = \"unix") == std::string::npos &&
-      plan.toml.find("\naddress") != std::string::npos)
+  if (plan.samples.empty() && plan.toml.find("\naddress") != std::string::npos)
     lines +=
         "  sudo install -D -t /etc/systemd/system/navcald.service.d /usr/share/navcal/navcald-network.conf\n"
         "  sudo systemctl daemon-reload\n";

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <cmath>
 
-#include "base/angles.h"
 #include "report/thesis_content.h"
 
 namespace navcal::report {
@@ -66,41 +64,10 @@ ThesisFigure compass_figure(const CompassFigure& figure, const ThesisCompassTrac
            std::move(error)}};
 }
 
-/// Figure 4.1: the injected deviation and its two parts, with the eight points of a classical swing.
-ThesisFigure deviation_figure() {
-  ThesisCurve hard{"hard iron, B and C", Ink::first, {}, {}}, soft{"soft iron, D and E", Ink::third, {}, {}};
-  ThesisCurve sum{"both", Ink::second, {}, {}}, swing{"swing on eight headings", Ink::fit, {}, {}};
-  calib::thesis::Deviation only_hard = calib::thesis::thesis_deviation(), only_soft = only_hard;
-  only_hard.tail<2>().setZero();
-  only_soft.segment<2>(1).setZero();
-  for (int heading_deg = 0; heading_deg <= 360; ++heading_deg) {
-    const double heading_rad = heading_deg * base::kRadiansPerDegree;
-    const double of_hard = calib::thesis::deviation_rad(only_hard, heading_rad) * base::kDegreesPerRadian;
-    const double of_soft = calib::thesis::deviation_rad(only_soft, heading_rad) * base::kDegreesPerRadian;
-    for (ThesisCurve* curve : {&hard, &soft, &sum}) curve->x.push_back(heading_deg);
-    hard.y.push_back(of_hard);
-    soft.y.push_back(of_soft);
-    sum.y.push_back(of_hard + of_soft);
-    if (heading_deg % 45 != 0) continue;
-    swing.x.push_back(heading_deg);
-    swing.y.push_back(of_hard + of_soft);
-  }
-  return {"4.1",
-          "Deviation of the compass",
-          "E of equation (2.7) with the injected B = 5, C = -5, D = 2, E = 2 degrees, and what a classical swing "
-          "on eight headings makes of it, linear between them. What the thesis draws in this figure is not on "
-          "record; this is our drawing "
-          "of the deviation that all figures of this chapter are about.",
-          {{"Deviation E",
-            "measured heading, degrees",
-            "degrees",
-            {std::move(hard), std::move(soft), std::move(sum), std::move(swing)}}}};
-}
-
 }  // namespace
 
 std::vector<ThesisFigure> thesis_compass_figures(const analysis::ThesisResults& results) {
-  std::vector<ThesisFigure> figures{deviation_figure()};
+  std::vector<ThesisFigure> figures{thesis_deviation_figure()};
   for (const CompassFigure& figure : kCompassFigures)
     figures.push_back(compass_figure(figure, thesis_trace_of(results.compass_traces, figure.path, figure.noisy)));
   return figures;

@@ -57,7 +57,7 @@ struct ThesisPanel {
   std::optional<Range> y_range{};  ///< nothing: all of every curve
 };
 
-/// A figure of the thesis; without panels it is a picture that shows no data.
+/// A figure of the thesis.
 struct ThesisFigure {
   std::string id;  ///< "3.1"
   std::string title, caption;
@@ -67,9 +67,14 @@ struct ThesisFigure {
 /// Cell as on the page.
 [[nodiscard]] std::string shown_cell(const ThesisCell& cell, const ThesisColumn& column);
 
-/// Figures 1.1, 1.2, 3.1 to 3.11 and 4.1 to 4.12, in this order.
+/// Figures 1.1, 1.2, 2.3 to 2.6, 3.1 to 3.11 and 4.1 to 4.12, in this order.
 [[nodiscard]] std::vector<ThesisFigure> thesis_figures(const analysis::ThesisResults& results);
 
+/// Figures 1.1, 1.2, 2.3 to 2.6.
+[[nodiscard]] std::vector<ThesisFigure> thesis_model_figures(const analysis::ThesisResults& results);
+/// Figure 4.1: the error of the simulated compass. Figure 4.7: that of figure 2.5, and its sinusoid.
+[[nodiscard]] ThesisFigure thesis_deviation_figure();
+[[nodiscard]] ThesisFigure thesis_hard_iron_figure();
 /// Figures 3.1 to 3.11.
 [[nodiscard]] std::vector<ThesisFigure> thesis_turn_figures(const analysis::ThesisResults& results);
 /// Figures 4.1 to 4.6.

@@ -2,10 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
-#include "base/angles.h"
-#include "calib/thesis/distorted_field.h"
 #include "calib/thesis/printed_tables.h"
 #include "report/thesis_content.h"
 
@@ -55,65 +52,19 @@ ThesisFigure field_figure(std::size_t row, const analysis::ThesisCircleTrace& tr
              {"navcal", Ink::first, trace.heading_deg, trace.navcal_error_deg}}}}};
 }
 
-ThesisCurve ellipse_curve(const char* name, Ink ink, const calib::EllipseShape& shape) {
-  ThesisCurve curve{name, ink, {}, {}};
-  for (int heading_deg = 0; heading_deg <= 360; heading_deg += 2) {
-    const Eigen::Vector2d field = shape.at(heading_deg * base::kRadiansPerDegree);
-    curve.x.push_back(field.y());
-    curve.y.push_back(field.x());
-  }
-  return curve;
-}
-
-/// Figure 4.7: what the method measures of an ellipse.
-ThesisFigure ellipse_figure() {
-  const calib::thesis::FieldDistortion distortion{{6, 8}, 0.8, 30};
-  const calib::EllipseShape shape = calib::thesis::distorted_circle(distortion);
-  const double axis_rad = distortion.axis_deg * base::kRadiansPerDegree;
-  const Eigen::Vector2d half = calib::thesis::kCircle_uT * Eigen::Vector2d(std::cos(axis_rad), std::sin(axis_rad));
-  const double minor = std::sqrt(1 - distortion.eccentricity * distortion.eccentricity);
-  const Eigen::Vector2d across = minor * Eigen::Vector2d(-half.y(), half.x());
-  const Eigen::Vector2d left = shape.centre_uT - across, right = shape.centre_uT + across;
-  const Eigen::Vector2d begin = shape.centre_uT - half, end = shape.centre_uT + half;
-  return {
-      "4.7",
-      "What the calibration of the magnetometer finds",
-      "The mean of the samples is the centre (4.12), the second moments give the major axis (4.14), the largest "
-      "values along both axes their ratio (4.17). Shown: shift 6 and 8 uT, eccentricity 0.8, axis at 30 degrees. "
-      "What the thesis draws in this figure is not on record; this is our drawing of its equations.",
-      {{"Horizontal field",
-        "starboard, uT",
-        "forward, uT",
-        {ellipse_curve("measured", Ink::second, shape),
-         ellipse_curve("calibrated", Ink::first, calib::thesis::distorted_circle({})),
-         {"major axis", Ink::fit, {begin.y(), end.y()}, {begin.x(), end.x()}},
-         {"minor axis", Ink::third, {left.y(), right.y()}, {left.x(), right.x()}}},
-        true}}};
-}
-
-/// Nothing is on record of these figures that could be computed.
-ThesisFigure picture(const char* id) {
-  return {
-      id,
-      "A picture without data",
-      "Figures 1.1 and 1.2 belong to the introduction. Nothing that could be computed is on record of them, so "
-      "nothing is drawn here.",
-      {}};
-}
-
 }  // namespace
 
 std::vector<ThesisFigure> thesis_field_figures(const analysis::ThesisResults& results) {
-  std::vector<ThesisFigure> figures{ellipse_figure()};
+  std::vector<ThesisFigure> figures{thesis_hard_iron_figure()};
   for (std::size_t row = 0; row < results.circle_traces.size(); ++row)
     figures.push_back(field_figure(row, results.circle_traces.at(row)));
   return figures;
 }
 
 std::vector<ThesisFigure> thesis_figures(const analysis::ThesisResults& results) {
-  std::vector<ThesisFigure> figures{picture("1.1"), picture("1.2")};
-  for (const auto& part :
-       {thesis_turn_figures(results), thesis_compass_figures(results), thesis_field_figures(results)})
+  std::vector<ThesisFigure> figures;
+  for (const auto& part : {thesis_model_figures(results), thesis_turn_figures(results),
+                           thesis_compass_figures(results), thesis_field_figures(results)})
     figures.insert(figures.end(), part.begin(), part.end());
   return figures;
 }

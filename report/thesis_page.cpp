@@ -66,8 +66,6 @@ std::string panel_svg(const ThesisPanel& panel, SvgPlot::Size size) {
 }
 
 Figure page_figure(const ThesisFigure& figure) {
-  if (figure.panels.empty())
-    return {"Figure " + figure.id + ": " + figure.title, {}, figure.caption, figure_id(figure)};
   const bool thirds = figure.panels.size() % 3 == 0;
   std::string html = thirds ? "<div class=\"panels\">\n" : "<div class=\"panels pair\">\n";
   char letter = 'a';
@@ -149,6 +147,8 @@ std::string thesis_page(const analysis::ThesisResults& results) {
   add_reading_help(page, results);
   page.section("Chapter 1: introduction");
   add_figures(page, figures, '1');
+  page.section("Chapter 2: compass and gyro");
+  add_figures(page, figures, '2');
   page.section("Chapter 3: rate gyro");
   for (const ThesisTable& table : tables) {
     if (in_chapter(table.id, '3') || table.id == "convergence") add_table(page, table);

@@ -23,6 +23,8 @@ namespace navcal::analysis {
                                                       std::uint64_t seed);
 [[nodiscard]] ThesisCircleTrace thesis_circle_trace(std::size_t row, std::uint64_t seed);
 
+[[nodiscard]] ThesisFirstFixes thesis_first_fixes(int under_s, int longest_s, std::uint64_t seed);
+
 /// Time from which on both estimates stay within kSettled of the true values.
 inline constexpr double kThesisSettled = 0.05;
 [[nodiscard]] std::optional<double> thesis_settled_s(const std::vector<double>& time_s,

@@ -92,6 +92,12 @@ struct ThesisCircleTrace {
   std::vector<double> raw_error_deg, thesis_error_deg, navcal_error_deg;
 };
 
+/// Surfacings of the simulated receiver (figures 1.1, 1.2), whose search takes any time up to the longest.
+struct ThesisFirstFixes {
+  int under_s = 0, longest_s = 0;  ///< time under water; longest search
+  std::vector<int> times_s;        ///< from each surfacing to its first fix
+};
+
 struct ThesisResults {
   int runs = 0;
   std::uint64_t seed = 0;
@@ -103,6 +109,7 @@ struct ThesisResults {
   std::vector<ThesisTurnTrace> turn_traces;
   std::vector<ThesisCompassTrace> compass_traces;
   std::array<ThesisCircleTrace, 5> circle_traces;
+  std::array<ThesisFirstFixes, 2> first_fixes;
 };
 
 struct ThesisRequest {

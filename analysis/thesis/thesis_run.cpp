@@ -78,6 +78,7 @@ ThesisResults thesis_results(const ThesisRequest& request, const ThesisProgress&
     }
   }
   add_traces(results, paths, request.seed);
+  results.first_fixes = {thesis_first_fixes(300, 14, request.seed), thesis_first_fixes(600, 29, request.seed)};
   return results;
 }
 

@@ -84,7 +84,7 @@ TEST(Arrivals, RatesStampsAndWhatIsMissing) {
   Arrivals arrivals("rov");
   const std::vector<ExpectedQuantity> expected{{"rates", "Ask."}, {"depth", "Dive."}};
   EXPECT_EQ(arrivals.missing(expected, "Switch it on."), "No measurement arrives. Switch it on.\n");
-  EXPECT_EQ(arrivals.came(1), "port rov: navcald says nothing of it\n");
+  EXPECT_EQ(arrivals.came(), "port rov: navcald says nothing of it\n");
   for (int i = 0; i < 20; ++i) {
     for (const char* const device : {"rov", "other"})
       arrivals.take(fmt::format(R"({{"class":"RECORD","topic":"/imu","device":"{}","message":{{"class":"IMU",)"
@@ -96,12 +96,16 @@ TEST(Arrivals, RatesStampsAndWhatIsMissing) {
   arrivals.take(
       R"({"class":"HEALTH","sources":{"rates":"rov","heading":"other"},"utc":{"source":"gps","bound_s":0.06},)"
       R"("ports":[{"device":"other","state":"silent"},{"device":"rov","state":"running","start_up":"system 1"}]})");
-  EXPECT_EQ(arrivals.came(2),
+  EXPECT_EQ(arrivals.came(),
             "port rov: running; system 1\n"
-            "  IMU            10.0 a second, times known to 2.0 ms, 5.0 ms old on arrival\n"
+            "  IMU             1.0 a second, times known to 2.0 ms, 5.0 ms old on arrival\n"
             "  serves rates\n"
-            "UTC: gps, known to 0.0600 s\n");
+            "UTC: gps, bound of its error 0.060 s\n");
   EXPECT_EQ(arrivals.missing(expected, "Switch it on."), "No depth arrives. Dive.\n");
+  arrivals.take(
+      R"({"class":"HEALTH","ports":[{"device":"rov","state":"away","reason":"Address already in use"}]})");
+  EXPECT_EQ(arrivals.missing(expected, "Switch it on."),
+            "The port is not open: Address already in use. Switch it on.\n");
 }
 
 }  // namespace

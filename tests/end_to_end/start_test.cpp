@@ -7,6 +7,7 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <regex>
 
 #include "tests/daemon/daemon_process.h"
@@ -32,8 +33,9 @@ class Started {
           const std::string& output = {})
       : port_(port) {
     std::vector<std::string> command{
-        NAVCAL_PROGRAM,       "start",     "--for", kind, "--output", output.empty() ? file() : output, "--port",
-        std::to_string(port), "--seconds", "6"};
+        NAVCAL_PROGRAM,      "start", "--for", kind, "--output", output.empty() ? file() : output, "--port",
+        std::to_string(port)};
+    if (std::ranges::count(more, "--seconds") == 0) more.insert(more.end(), {"--seconds", "6"});
     command.insert(command.end(), more.begin(), more.end());
     process_.emplace(command, folder_ / "start");
   }
@@ -119,7 +121,7 @@ TEST(Start, WhatDoesNotArriveIsSaidWithWhatToDo) {
 
 TEST(Start, AReceiverForGpsdsClients) {
   const FakeLine line;
-  const TalkingLine talking(line);
+  std::optional<TalkingLine> talking(std::in_place, line);
   Started start("gpsd", {"--device", line.path()});
   ASSERT_TRUE(start.runs()) << start.said();
   EXPECT_TRUE(start.says("port gps: nmea at 9600 Bd")) << start.said();
@@ -133,36 +135,39 @@ TEST(Start, AReceiverForGpsdsClients) {
   // Another start for the same receiver, and one for the same status port.
   Started second("gpsd", {"--device", line.path()});
   EXPECT_EQ(second.wait(), 1) << second.said();
-  EXPECT_TRUE(second.says("is held by navcald")) << second.said();
+  EXPECT_TRUE(second.says(line.path() + " is held by navcald")) << second.said();
   EXPECT_TRUE(second.says("nothing was started; the configuration is kept")) << second.said();
   const FakeLine other;
   Started third("gpsd", {"--device", other.path()}, start.port());
   EXPECT_EQ(third.wait(), 1) << third.said();
   EXPECT_TRUE(third.says("TCP port " + std::to_string(start.port()) + " is served by navcald")) << third.said();
   EXPECT_TRUE(third.says("--port N")) << third.said();
+  talking.reset();  // while somebody reads the line
   start.interrupt();
 }
 
 TEST(Start, AReceiverWithoutAFixAndOneThatIsSilent) {
   const FakeLine line, silent;
-  const TalkingLine talking(line, TalkingLine::Fixes::none);
+  std::optional<TalkingLine> talking(std::in_place, line, TalkingLine::Fixes::none);
   Started start("gpsd", {"--device", line.path()}), nothing("gpsd", {"--device", silent.path()});
   ASSERT_TRUE(start.runs()) << start.said();
   EXPECT_TRUE(start.says("No position arrives. The receiver has no fix yet")) << start.said();
   ASSERT_TRUE(nothing.runs()) << nothing.said();
   EXPECT_TRUE(nothing.says("No measurement arrives. Has the receiver power")) << nothing.said();
+  talking.reset();  // while somebody reads the line
   start.interrupt();
   nothing.interrupt();
 }
 
 TEST(Start, ADeviceWithNmea) {
   const FakeLine line;
-  const TalkingLine talking(line);
+  std::optional<TalkingLine> talking(std::in_place, line);
   Started start("nmea", {"--device", line.path()});
   ASSERT_TRUE(start.runs()) << start.said();
   EXPECT_NEAR(start.rate_of("COMPASS"), 10, 4) << start.said();
   EXPECT_GT(start.rate_of("GPS"), 0) << start.said();
   EXPECT_TRUE(std::regex_search(start.said(), std::regex("serves .*heading.*position"))) << start.said();
+  talking.reset();  // while somebody reads the line
   start.interrupt();
 }
 
@@ -190,7 +195,7 @@ TEST(Start, AFileThatIsThereStaysAsItIs) {
 
 TEST(Start, CtrlCWhileItListensEndsAllOfIt) {
   const FakeLine line;
-  const TalkingLine talking(line);
+  std::optional<TalkingLine> talking(std::in_place, line);
   Started start("nmea", {"--device", line.path(), "--seconds", "600"});
   ASSERT_TRUE(eventually(
       [&] {
@@ -202,6 +207,7 @@ TEST(Start, CtrlCWhileItListensEndsAllOfIt) {
         }
       },
       kLimit));
+  talking.reset();  // while somebody reads the line
   start.interrupt();
   EXPECT_TRUE(line.is_closed());
 }
@@ -221,7 +227,7 @@ TEST(Start, NodesOfRos2) {
   ::setenv("CYCLONEDDS_URI", "file://" NAVCAL_SOURCE_DIR "/systemd/ros2-loopback.xml", 1);
   ::setenv("ROS_DOMAIN_ID", std::to_string(1 + ::getpid() % 99).c_str(), 1);
   const FakeLine line;
-  const TalkingLine talking(line);
+  std::optional<TalkingLine> talking(std::in_place, line);
   Started vehicle("nmea", {"--device", line.path()});
   ASSERT_TRUE(vehicle.runs()) << vehicle.said();
   const test::TemporaryFolder folder;
@@ -237,6 +243,7 @@ TEST(Start, NodesOfRos2) {
   ASSERT_TRUE(silent.runs()) << silent.said();
   EXPECT_TRUE(silent.says("No measurement arrives. `ros2 topic hz TOPIC` says")) << silent.said();
   silent.interrupt();
+  talking.reset();  // while somebody reads the line
   vehicle.interrupt();
 }
 

@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/thesis/thesis_results.h"
@@ -34,6 +38,7 @@ const nlohmann::json& sample_json() {
 
 std::vector<std::string> every_figure() {
   std::vector<std::string> ids{"1.1", "1.2"};
+  for (int i = 3; i <= 6; ++i) ids.push_back("2." + std::to_string(i));
   for (int i = 1; i <= 11; ++i) ids.push_back("3." + std::to_string(i));
   for (int i = 1; i <= 12; ++i) ids.push_back("4." + std::to_string(i));
   return ids;
@@ -63,13 +68,13 @@ TEST(ThesisReport, EveryLinkOfTheIndexLeadsSomewhere) {
     EXPECT_EQ(cli::test::count(page, " id=\"" + id + "\""), 1) << id;
     ++links;
   }
-  EXPECT_EQ(links, 6 + 25);
+  EXPECT_EQ(links, 6 + 29);
   EXPECT_EQ(page.find("http"), std::string::npos) << "a page needs nothing from elsewhere";
 }
 
-TEST(ThesisReport, OnlyThePicturesHaveNoPanels) {
+TEST(ThesisReport, EveryFigureHasCurves) {
   for (const auto& [id, figure] : sample_json()["figures"].items()) {
-    EXPECT_EQ(figure["panels"].empty(), id == "1.1" || id == "1.2") << id;
+    EXPECT_FALSE(figure["panels"].empty()) << id;
     EXPECT_FALSE(figure["caption"].get<std::string>().empty()) << id;
     for (const auto& panel : figure["panels"]) {
       for (const auto& curve : panel["curves"]) {
@@ -78,6 +83,90 @@ TEST(ThesisReport, OnlyThePicturesHaveNoPanels) {
       }
     }
   }
+}
+
+/// A curve of a figure, (x, y).
+std::vector<std::pair<double, double>> curve_of(const std::string& figure, int panel, int curve) {
+  const auto& json = sample_json()["figures"][figure]["panels"][panel]["curves"][curve];
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < json["x"].size(); ++i) points.emplace_back(json["x"][i], json["y"][i]);
+  return points;
+}
+constexpr double kDegree = std::numbers::pi / 180;
+
+TEST(ThesisReport, FirstFixesFillTheBinsOfTheThesis) {
+  for (const auto& [figure, longest_s] : {std::pair("1.1", 14), std::pair("1.2", 29)}) {
+    double surfacings = 0, last_s = 0;
+    for (const auto& [time_s, count] : curve_of(figure, 0, 0)) {
+      if (time_s == std::floor(time_s)) ADD_FAILURE() << "the edges of a bar lie between full seconds";
+      surfacings += count / 2;  // each bar has two upper corners
+      if (count > 0) last_s = std::max(last_s, time_s);
+      if (count > 0) {
+        EXPECT_GT(time_s, 0.4) << figure;
+      }
+    }
+    EXPECT_EQ(surfacings, 30) << figure;
+    EXPECT_LE(last_s, longest_s + 0.5) << figure;
+    EXPECT_GT(last_s, longest_s * 0.8) << figure;
+  }
+}
+
+// Equation (2.7) with the thesis's A to E, by table 4.1's rule; its axis is on record.
+TEST(ThesisReport, TheErrorOfTheCompassIsThatOfAToE) {
+  const auto curve = curve_of("4.1", 0, 0);
+  ASSERT_EQ(curve.size(), 361U);
+  double least_deg = 0, most_deg = 0;
+  for (const auto& [heading_deg, error_deg] : curve) {
+    const double h = heading_deg * kDegree;
+    EXPECT_NEAR(error_deg, -(5 * std::sin(h) - 5 * std::cos(h) + 2 * std::sin(2 * h) + 2 * std::cos(2 * h)), 1e-5);
+    least_deg = std::min(least_deg, error_deg);
+    most_deg = std::max(most_deg, error_deg);
+  }
+  EXPECT_GT(least_deg, -8);
+  EXPECT_LT(most_deg, 10);
+  EXPECT_GT(most_deg, 9);
+}
+
+TEST(ThesisReport, LevelFieldsAreCirclesOf19MicroteslaAndTheirDistortions) {
+  for (const char* const figure : {"2.3", "2.4"}) {
+    for (const auto& [east, north] : curve_of(figure, 0, 0)) EXPECT_NEAR(std::hypot(east, north), 19, 1e-5);
+    for (const auto& [heading_deg, error_deg] : curve_of(figure, 1, 0))
+      EXPECT_NEAR(error_deg, figure == std::string("2.3") ? 0 : 5, 1e-6);
+  }
+  // Marks: the field points forward when the vehicle heads north, and to port when it heads east.
+  const std::vector<std::pair<double, double>> marks{{0, 19}, {-19, 0}, {0, -19}, {19, 0}};
+  for (int i = 0; i < 4; ++i) {
+    const auto mark = curve_of("2.3", 0, i + 1);
+    ASSERT_EQ(mark.size(), 1U);
+    EXPECT_NEAR(mark[0].first, marks[static_cast<std::size_t>(i)].first, 1e-6);
+    EXPECT_NEAR(mark[0].second, marks[static_cast<std::size_t>(i)].second, 1e-6);
+  }
+  double most_deg = 0;
+  for (const auto& [starboard, forward] : curve_of("2.5", 0, 0))
+    EXPECT_NEAR(std::hypot(starboard - 2.5, forward - 4), 19, 1e-5);
+  for (const auto& [heading_deg, error_deg] : curve_of("2.5", 1, 0)) most_deg = std::max(most_deg, error_deg);
+  EXPECT_NEAR(most_deg, std::asin(std::hypot(4, 2.5) / 19) / kDegree, 0.01);
+  EXPECT_LT(most_deg, 15);
+  const auto soft = curve_of("2.6", 1, 0);
+  double wave = 0;
+  for (std::size_t i = 0; i < 180; ++i) {
+    EXPECT_NEAR(soft[i].second, soft[i + 180].second, 2e-6) << "two waves for each turn";
+    wave = std::max(wave, std::abs(soft[i].second));
+  }
+  // An axis ratio r changes a heading by atan((1 - r) / (2 sqrt(r))) at most.
+  EXPECT_NEAR(wave, std::atan((1 - 0.8) / (2 * std::sqrt(0.8))) / kDegree, 0.01);
+}
+
+TEST(ThesisReport, HardIronIsTheArcSineOfItsSinusoid) {
+  const auto error = curve_of("4.7", 0, 0), model = curve_of("4.7", 0, 1);
+  EXPECT_EQ(error, curve_of("2.5", 1, 0));
+  ASSERT_EQ(model.size(), error.size());
+  double apart_deg = 0;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    EXPECT_NEAR(std::sin(error[i].second * kDegree), model[i].second * kDegree, 1e-6);
+    apart_deg = std::max(apart_deg, std::abs(error[i].second - model[i].second));
+  }
+  EXPECT_NEAR(apart_deg, 0.15, 0.005);
 }
 
 /// A row of the page as the numbers of JSON make it.
