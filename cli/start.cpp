@@ -20,7 +20,7 @@
 #include "cli/start_plan.h"
 #include "cli/watch_stream.h"
 #include "config/load.h"
-#include "fleet/command_output.h"
+#include "fleet/slurm.h"
 #include "ports/finder.h"
 #include "ports/holder.h"
 #include "validation/child.h"
