@@ -42,8 +42,8 @@ constexpr double kCertainErrors = 6;
 constexpr double kCancelled = 0.15;
 /// Readings while a magnet is put on: they are of neither field.
 constexpr std::size_t kMostBetween = 10;
-/// A step is told when its standard error is a smaller share of its size.
-constexpr double kLeastKnown = 1;
+/// A size is known when its standard error is a smaller share of it.
+constexpr double kLeastKnown = 0.4;
 
 double squares_of(const EllipsoidCells& cells, EllipsoidShape shape, const Eigen::Vector3d& centre_uT,
                   const SegmentNoise& noise) {
@@ -230,18 +230,16 @@ bool Magnetometer::tell_at_rest() {
 
 bool Magnetometer::is_seen(const Eigen::Vector3d& size_uT) const {
   constexpr double kLargestEarthField_uT = 70, kSlack_uT = 5, kSlack = 0.15;
+  const std::size_t settled = std::min(kMostBetween, waiting_.size() / 2);
   if (past_.empty()) return false;
-  const auto& before = past_.back().mean;
+  const auto &before = past_.back().mean, &after = waiting_[settled].predicted.cell.mean;
   double turned_rad = 0;
-  return std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    const auto& [reading, predicted, number] = waiting;
-    const auto& after = predicted.cell.mean;
-    turned_rad += reading.has_turn ? std::abs(reading.turn.measured_angle_rad) : std::numbers::pi;
-    const double tilted_rad = std::acos(std::clamp(before.tail<3>().dot(after.tail<3>()), -1., 1.));
-    const double chord_uT =
-        2 * kLargestEarthField_uT * std::sin(std::min(turned_rad + tilted_rad, std::numbers::pi) / 2);
-    return ((after - before).head<3>() - size_uT).norm() < chord_uT + kSlack_uT + kSlack * size_uT.norm();
-  });
+  for (std::size_t i = 0; i <= settled; ++i)
+    turned_rad +=
+        waiting_[i].reading.has_turn ? std::abs(waiting_[i].reading.turn.measured_angle_rad) : std::numbers::pi;
+  turned_rad += std::acos(std::clamp(before.tail<3>().dot(after.tail<3>()), -1., 1.));
+  const double chord_uT = 2 * kLargestEarthField_uT * std::sin(std::min(turned_rad, std::numbers::pi) / 2);
+  return ((after - before).head<3>() - size_uT).norm() < chord_uT + kSlack_uT + kSlack * size_uT.norm();
 }
 
 std::size_t Magnetometer::onset_of(const Comparison& found) const {
