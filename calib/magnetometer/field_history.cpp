@@ -34,6 +34,19 @@ void archive_all(Archive& archive, auto& list) {
   for (auto& one : list) archive(one);
 }
 
+/// True when the field was seen from about one side only. Then any heading explains it, and the fit does not
+/// determine its hard iron.
+bool rested(const EllipsoidCells& cells, const EllipsoidShape& shape, const Eigen::Vector3d& centre_uT) {
+  constexpr double kLeastScatter = 0.05;  // of the unit vectors, of 1
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double count = 0;
+  for (const auto& cell : cells) {
+    mean += cell.count * (shape.matrix_per_uT * (cell.mean.head<3>() - centre_uT)).normalized();
+    count += cell.count;
+  }
+  return count > 0 && 1 - (mean / count).squaredNorm() < kLeastScatter;
+}
+
 }  // namespace
 
 FieldHistory::FieldHistory() : before_(kCellSize_uT), now_(kCellSize_uT) {}
@@ -82,18 +95,18 @@ bool FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& 
   tell_spreads(noise, belief);
   if (alone) return false;
   FieldStep& step = steps_.back();
+  if (step.contrast && (rested(before_.cells(), fit->shape, fit->centres_uT.front()) ||
+                        rested(now_.cells(), fit->shape, fit->centres_uT.back()))) {
+    step.size_uT = step.contrast->size_uT;
+    step.std_uT = step.contrast->std_uT;
+    return false;
+  }
   step.size_uT = fit->centres_uT[1] - fit->centres_uT[0];
   const double values = 2 * static_cast<double>(before_.cells().size() + now_.cells().size());
   const double freedom = std::max(1., values - EllipsoidShape::kParameters - 3);
   // Residuals that are larger than the noise says: everything is less certain.
   const double larger = std::max(1., fit->cost / freedom);
   step.std_uT = (larger * fit->covariance.diagonal().segment<3>(EllipsoidShape::kParameters)).cwiseSqrt();
-  // A segment that was seen from about one side only does not determine its hard iron.
-  if (step.contrast && step.contrast->std_uT.norm() < step.std_uT.norm()) {
-    step.size_uT = step.contrast->size_uT;
-    step.std_uT = step.contrast->std_uT;
-    return false;
-  }
   const bool is_nothing = (step.size_uT.array().abs() < kLeastErrors * step.std_uT.array()).all();
   // A field that returned has its summary of before: nothing is made one there.
   if (is_sure || step.returned || !(is_nothing || one_field_explains(*fit, noise, belief))) return false;

@@ -52,6 +52,15 @@ double FieldPredictor::surprise(const PredictedReading& reading) const {
   return std::isfinite(square) ? square : 0;
 }
 
+FieldPredictor::Exact FieldPredictor::exact(const PredictedReading& reading) const {
+  if (!fitted_) return {};
+  const SegmentResidual r = residual(reading);
+  const Eigen::Matrix2d by_fit = r.slope * covariance_ * r.slope.transpose();
+  bool known = by_fit(0, 0) < r.variance(0, 0);
+  if (r.freedom == 2) known = known && by_fit(1, 1) < r.variance(1, 1);
+  return {r.square() / r.freedom, known};
+}
+
 void FieldPredictor::learn_noise(const PredictedReading& reading) {
   if (!fitted_) return;
   const SegmentResidual r = residual(reading);
@@ -71,27 +80,17 @@ void FieldPredictor::learn_noise(const PredictedReading& reading) {
   }
 }
 
-void FieldPredictor::fit(const EllipsoidCells& cells, const EllipsoidCells* earlier,
-                         const EllipsoidShape* earlier_shape) {
+void FieldPredictor::fit(const EllipsoidCells& cells) {
   next_fit_ = samples_ + std::max(kLeastPredicted, samples_ / kFitShare);
-  const EllipsoidCells* const all[] = {earlier, &cells};
-  const std::size_t others = earlier != nullptr ? 1 : 0;
+  const EllipsoidCells* const all[] = {&cells};
   const bool early = samples_ < 4 * kFirstFit;  // early shapes are poor beginnings
-  const EllipsoidShape* const own = fitted_ && !early ? &shape_ : nullptr;
-  if (const auto fit =
-          fit_segments(Segments(all).last(1 + others), noise(), belief_, others ? earlier_shape : own))
-    set_fit(*fit, others);
+  if (const auto fit = fit_segments(all, noise(), belief_, fitted_ && !early ? &shape_ : nullptr)) set_fit(*fit);
 }
 
-void FieldPredictor::set_fit(const SegmentsFit& fit, std::size_t segment) {
-  constexpr Eigen::Index kShape = EllipsoidShape::kParameters;
+void FieldPredictor::set_fit(const SegmentsFit& fit) {
   fitted_ = true;
   shape_ = fit.shape;
-  shape_.centre_uT = fit.centres_uT[segment];
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(kShape, fit.covariance.cols());
-  slope.leftCols<kShape>().setIdentity();
-  if (segment > 0) slope.block<3, 3>(0, kShape + 3 * static_cast<Eigen::Index>(segment - 1)).setIdentity();
-  covariance_ = slope * fit.covariance * slope.transpose();
+  covariance_ = fit.covariance.topLeftCorner<EllipsoidShape::kParameters, EllipsoidShape::kParameters>();
 }
 
 void FieldPredictor::archive(Archive& archive) {

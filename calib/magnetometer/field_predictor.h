@@ -30,18 +30,23 @@ class FieldPredictor {
 
   /// Squared departure per degree of freedom; 0 while too few readings are known for a prediction.
   [[nodiscard]] double surprise(const PredictedReading& reading) const;
-  /// A reading that was used. True: it is time to fit anew.
-  [[nodiscard]] bool update(const PredictedReading& reading) {
-    learn_noise(reading);
-    return ++samples_ >= next_fit_;
-  }
-  /// `earlier`: the readings of another hard iron, with the shape that was fitted to them; null: none.
-  void fit(const EllipsoidCells& cells, const EllipsoidCells* earlier = nullptr,
-           const EllipsoidShape* earlier_shape = nullptr);
-  /// Takes over a fit, for the hard iron of one of its segments.
-  void set_fit(const SegmentsFit& fit, std::size_t segment = 0);
+  /// The same, computed as if the fit were exact. `known`: the uncertainty of the fit is small beside the
+  /// noise.
+  struct Exact {
+    double surprise = 0;
+    bool known = false;
+  };
+  [[nodiscard]] Exact exact(const PredictedReading& reading) const;
 
-  [[nodiscard]] bool is_fitted() const { return fitted_; }
+  /// A reading that was used; `cells` are asked for when it is time to fit anew.
+  template <class Cells>
+  void update(const PredictedReading& reading, Cells cells) {
+    learn_noise(reading);
+    if (++samples_ >= next_fit_) fit(cells());
+  }
+  void fit(const EllipsoidCells& cells);
+  void set_fit(const SegmentsFit& fit);
+
   [[nodiscard]] const EllipsoidShape& shape() const { return shape_; }
   [[nodiscard]] SegmentNoise noise() const;
   [[nodiscard]] const SegmentBelief& belief() const { return belief_; }

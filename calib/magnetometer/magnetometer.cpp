@@ -21,18 +21,11 @@ Magnetometer::Estimators::Estimators(const Parameters& parameters)
     : ellipse(parameters.ellipse), gyro(parameters.gyro), ellipsoid(parameters.ellipsoid),
       predictor(parameters.ellipsoid.noise_uT, parameters.ellipsoid.known) {}
 
-void Magnetometer::Estimators::update(const Reading& reading, const PredictedReading& predicted,
-                                      const Estimators* earlier) {
+void Magnetometer::Estimators::update(const Reading& reading, const PredictedReading& predicted) {
   ellipse.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
   ellipsoid.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
   if (reading.has_turn) gyro.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad, reading.turn);
-  if (predictor.update(predicted)) fit(earlier);
-}
-
-void Magnetometer::Estimators::fit(const Estimators* earlier) {
-  if (earlier == nullptr || !earlier->predictor.is_fitted()) return predictor.fit(ellipsoid.cells());
-  const EllipsoidCells before = earlier->ellipsoid.cells();
-  predictor.fit(ellipsoid.cells(), &before, &earlier->predictor.shape());
+  predictor.update(predicted, [this] { return ellipsoid.cells(); });
 }
 
 void Magnetometer::Estimators::archive(Archive& archive) { archive(ellipse, gyro, ellipsoid, predictor); }
@@ -103,7 +96,7 @@ void Magnetometer::use(const Waiting& waiting) {
   Reading used = waiting.reading;
   used.turn.begins_segment = used.turn.begins_segment || turn_broken_;
   turn_broken_ = false;
-  now_.update(used, waiting.predicted, before_ ? &*before_ : nullptr);
+  now_.update(used, waiting.predicted);
   history_.add(waiting.predicted.cell, used.time_s, used.utc_ns);
   if (history_.is_time_to_refine()) refine_history();
   constexpr std::size_t kPast = 64;

@@ -97,9 +97,7 @@ class Magnetometer {
     FieldPredictor predictor;
 
     explicit Estimators(const Parameters& parameters);
-    /// `earlier`: those of the field before the last step; null: none. Soft iron and dip are common.
-    void update(const Reading& reading, const PredictedReading& predicted, const Estimators* earlier);
-    void fit(const Estimators* earlier);
+    void update(const Reading& reading, const PredictedReading& predicted);
     void archive(Archive& archive);
   };
 
@@ -143,13 +141,12 @@ class Magnetometer {
   /// A step of that size from the first reading that waits on.
   [[nodiscard]] FieldStep step_at_first_waiting(const Eigen::Vector3d& size_uT,
                                                 const Eigen::Vector3d& std_uT) const;
-  /// True when the field changed by that size at the onset, but for what the hull's turn meanwhile explains.
-  [[nodiscard]] bool is_seen(const Eigen::Vector3d& size_uT) const;
   template <class Condition>
   void leave_out_waiting(const Condition& is_left_out);
   /// Tells a step whose size no turn of the hull explains, whatever the shape of the field may be. True: it is
   /// done.
   bool tell_at_rest();
+  [[nodiscard]] bool is_field_before() const;
 
   Parameters parameters_;
   Estimators now_;

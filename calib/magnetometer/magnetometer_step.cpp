@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "calib/magnetometer/field_cells.h"
 #include "calib/magnetometer/magnetometer.h"
@@ -20,14 +19,8 @@ constexpr double kLeastStep_uT = 0.5;
 /// Twice the logarithm of the likelihood ratio at which three more parameters are believed; 30 has a chance of
 /// 1e-6 where there is no step, and errors that are alike in neighbouring readings are worth several times that.
 constexpr double kLeastGain = 60;
-/// The same gain of a third field over a return to the first, up to which the field has returned.
-constexpr double kMostGainBack = 30;
-/// What a field that moves on may gain over one that stays.
-constexpr double kMostGainMoving = 40;
 /// Below it one field explains all; between the two more readings will tell.
 constexpr double kUndecided = 8;
-/// Fewer readings show too little of the shape of the field to tell a step while the hull turns.
-constexpr std::uint64_t kLeastSeen = 200;
 /// A magnet takes a second to be put on: so many readings let the new field settle.
 constexpr std::uint64_t kLeastWaiting = 20;
 /// Upper limit of the squared departure that a single reading contributes.
@@ -40,10 +33,8 @@ constexpr std::size_t kContrasted = 5;
 constexpr double kCertainErrors = 6;
 /// Two steps that leave a smaller share are one there and one back.
 constexpr double kCancelled = 0.15;
-/// Readings while a magnet is put on: they are of neither field.
-constexpr std::size_t kMostBetween = 10;
-/// A size is known when its standard error is a smaller share of it.
-constexpr double kLeastKnown = 0.4;
+/// Readings of a resting hull while a magnet is put on.
+constexpr std::ptrdiff_t kMostBetween = 10;
 
 double squares_of(const EllipsoidCells& cells, EllipsoidShape shape, const Eigen::Vector3d& centre_uT,
                   const SegmentNoise& noise) {
@@ -51,11 +42,6 @@ double squares_of(const EllipsoidCells& cells, EllipsoidShape shape, const Eigen
   double sum = 0;
   for (const Cell& cell : cells) sum += std::min(segment_residual(shape, cell, noise).square(), kMostSquare);
   return sum;
-}
-
-EllipsoidCells joined(EllipsoidCells all, const EllipsoidCells& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
 }
 
 double freedom_of(const EllipsoidCells& cells) { return static_cast<double>(2 * cells.size()); }
@@ -68,14 +54,9 @@ struct Magnetometer::Comparison {
   std::optional<SegmentsFit> one, two;
   EllipsoidCells waiting;
   double gain = 0;      ///< of the likelihood, twice its logarithm, in units of the scatter that remains
-  bool back = false;    ///< the field before the last step explains those that wait as well as a third field
-  bool stays = false;   ///< the readings that wait are of one field
   bool sudden = false;  ///< the readings just before the onset are of the field before
 
   [[nodiscard]] Eigen::Vector3d size_uT() const { return two->centres_uT[1] - two->centres_uT[0]; }
-  [[nodiscard]] Eigen::Vector3d std_uT() const {
-    return two->covariance.diagonal().segment<3>(EllipsoidShape::kParameters).cwiseSqrt();
-  }
 };
 
 Magnetometer::Comparison Magnetometer::compare() const {
@@ -92,22 +73,17 @@ Magnetometer::Comparison Magnetometer::compare() const {
     lag2 += waiting.predicted.tilt_error_rad * waiting.predicted.tilt_error_rad;
   const bool agitated = lag2 > kAgitated_rad * kAgitated_rad * static_cast<double>(waiting_.size());
   // Readings at one attitude share their errors, so a cell of them counts as little more than one reading.
-  const auto cells_of = [&](std::size_t begin, std::size_t end) {
-    FieldCells<3, 6> cells(kCellSize_uT);
-    for (std::size_t i = begin; i < end; ++i) {
-      auto reading = waiting_[i].predicted.cell.mean;
-      if (agitated) reading.tail<3>().setZero();
-      cells.add(reading);
-    }
-    return cells.cells();
-  };
-  const std::size_t settled = std::min(kMostBetween, waiting_.size() / 2);
-  found.waiting = cells_of(settled, waiting_.size());
-  // The field before the last step has the same soft iron: a short segment does not tell its own.
-  const EllipsoidCells earlier = before_ ? before_->ellipsoid.cells() : EllipsoidCells();
-  const EllipsoidCells all = joined(before, found.waiting);
-  std::vector<const EllipsoidCells*> together{&all}, apart{&before, &found.waiting};
-  if (before_) together.push_back(&earlier), apart.push_back(&earlier);
+  FieldCells<3, 6> cells(kCellSize_uT);
+  for (const Waiting& waiting : waiting_) {
+    auto reading = waiting.predicted.cell.mean;
+    if (agitated) reading.tail<3>().setZero();
+    cells.add(reading);
+  }
+  found.waiting = cells.cells();
+  EllipsoidCells all = before;
+  all.insert(all.end(), found.waiting.begin(), found.waiting.end());
+  const std::array<const EllipsoidCells*, 1> together{&all};
+  const std::array<const EllipsoidCells*, 2> apart{&before, &found.waiting};
   found.one = fit_segments(together, noise, belief, &now_.predictor.shape());
   if (const auto anew = fit_segments(together, noise, belief); anew && found.one && anew->cost < found.one->cost)
     found.one = anew;
@@ -119,23 +95,6 @@ Magnetometer::Comparison Magnetometer::compare() const {
   const double left = squares_of(found.waiting, found.two->shape, found.two->centres_uT[1], noise);
   const double scatter = std::max(1.0, left / freedom_of(found.waiting));
   found.gain = (found.one->cost - found.two->cost) / scatter;
-  // Iron that is passed comes and goes: each half of the readings would have a field of its own.
-  const std::size_t middle = (settled + waiting_.size()) / 2;
-  const EllipsoidCells first = cells_of(settled, middle), last = cells_of(middle, waiting_.size());
-  const std::array<const EllipsoidCells*, 3> thirds{&before, &first, &last};
-  if (const auto fit = fit_segments(thirds, noise, belief, &found.two->shape)) {
-    const double rest = squares_of(first, fit->shape, fit->centres_uT[1], noise) +
-                        squares_of(last, fit->shape, fit->centres_uT[2], noise);
-    const double noise_of_both = std::max(1.0, rest / freedom_of(found.waiting));
-    found.stays = squares_of(found.waiting, found.two->shape, found.two->centres_uT[1], noise) - rest <
-                  kMostGainMoving * noise_of_both;
-  }
-  if (before_) {
-    const EllipsoidCells back = joined(earlier, found.waiting);
-    const std::array<const EllipsoidCells*, 2> two_fields{&before, &back};
-    const auto fit = fit_segments(two_fields, noise, belief, &found.two->shape);
-    found.back = fit && fit->cost - found.two->cost < kMostGainBack * scatter;
-  }
 
   // A drift has gone part of its way before the onset; a step has not begun.
   const EllipsoidCells past(past_.begin(), past_.end());
@@ -163,13 +122,10 @@ void Magnetometer::decide() {
   const double surprising =
       squares_of(found.waiting, now_.predictor.shape(), now_.predictor.shape().centre_uT, noise);
   const bool explained = surprising - unexplained > kLeastShare * surprising;
-  const bool known = readings_ > kLeastSeen && is_seen(found.size_uT()) &&
-                     found.std_uT().norm() < kLeastKnown * found.size_uT().norm();
-  if (found.gain > kLeastGain && found.size_uT().norm() > kLeastStep_uT && explained && found.sudden &&
-      found.stays && known) {
+  if (found.gain > kLeastGain && found.size_uT().norm() > kLeastStep_uT && explained && found.sudden) {
     use_those_before(onset_of(found));
-    FieldStep step = step_at_first_waiting(found.size_uT(), found.std_uT());
-    step.returned = found.back;
+    FieldStep step =
+        step_at_first_waiting(found.size_uT(), found.two->covariance.diagonal().tail<3>().cwiseSqrt());
     leave_out_those_between(found);
     step.contrast = contrast(step.onset_sample, 0);
     change_field(step);
@@ -182,8 +138,7 @@ void Magnetometer::decide() {
   }
   // A single field that explains all readings has the better fit: it replaces that of the predictor.
   const double by_one = squares_of(found.waiting, found.one->shape, found.one->shape.centre_uT, noise);
-  if (found.gain <= kUndecided && by_one - unexplained <= kLeastShare * surprising)
-    now_.predictor.set_fit(*found.one);
+  if (by_one - unexplained <= kLeastShare * surprising) now_.predictor.set_fit(*found.one);
   watch_.reset();
   release();
 }
@@ -219,27 +174,12 @@ bool Magnetometer::tell_at_rest() {
   const auto is_new = [&](const Waiting& waiting) { return is_of(newest_uT, waiting); };
   const auto is_between = [&](const Waiting& waiting) { return !is_new(waiting) && !is_of(before_uT, waiting); };
   // Iron that is passed comes slowly.
-  if (std::count_if(waiting_.begin(), waiting_.end(), is_between) > static_cast<std::ptrdiff_t>(kMostBetween))
-    return false;
+  if (std::count_if(waiting_.begin(), waiting_.end(), is_between) > kMostBetween) return false;
   leave_out_waiting(std::not_fn(is_new));
   FieldStep step = step_at_first_waiting(found->size_uT, found->std_uT);
   step.contrast = found;
   change_field(step);
   return true;
-}
-
-bool Magnetometer::is_seen(const Eigen::Vector3d& size_uT) const {
-  constexpr double kLargestEarthField_uT = 70, kSlack_uT = 5, kSlack = 0.15;
-  const std::size_t settled = std::min(kMostBetween, waiting_.size() / 2);
-  if (past_.empty()) return false;
-  const auto &before = past_.back().mean, &after = waiting_[settled].predicted.cell.mean;
-  double turned_rad = 0;
-  for (std::size_t i = 0; i <= settled; ++i)
-    turned_rad +=
-        waiting_[i].reading.has_turn ? std::abs(waiting_[i].reading.turn.measured_angle_rad) : std::numbers::pi;
-  turned_rad += std::acos(std::clamp(before.tail<3>().dot(after.tail<3>()), -1., 1.));
-  const double chord_uT = 2 * kLargestEarthField_uT * std::sin(std::min(turned_rad, std::numbers::pi) / 2);
-  return ((after - before).head<3>() - size_uT).norm() < chord_uT + kSlack_uT + kSlack * size_uT.norm();
 }
 
 std::size_t Magnetometer::onset_of(const Comparison& found) const {
@@ -280,7 +220,7 @@ std::optional<FieldContrast> Magnetometer::contrast(std::uint64_t onset, std::si
   using Mean = FieldCells<3, 6>::Vector;
   // A magnet that is still on its way shows as a difference between the first readings and those that follow.
   Mean before = Mean::Zero(), first = Mean::Zero(), after = Mean::Zero();
-  double turned_rad = 0, tilted = 0;
+  double turned_rad = 0;
   bool turn_known = true;
   for (std::size_t i = 0; i < kContrasted; ++i) {
     before += past_[past_.size() - 1 - i].mean / kContrasted;
@@ -289,7 +229,6 @@ std::optional<FieldContrast> Magnetometer::contrast(std::uint64_t onset, std::si
   }
   for (std::size_t i = 0; i < first_waiting + 2 * kContrasted; ++i) {
     const Reading& reading = waiting_[i].reading;
-    tilted = std::max(tilted, (waiting_[i].predicted.cell.mean - past_.back().mean).tail<3>().norm());
     turn_known = turn_known && reading.has_turn && !reading.turn.begins_segment;
     turned_rad += std::abs(reading.turn.measured_angle_rad);
   }
@@ -299,7 +238,7 @@ std::optional<FieldContrast> Magnetometer::contrast(std::uint64_t onset, std::si
   const double between = static_cast<double>(waiting_[first_waiting].number - onset + 2 * kContrasted);
   const double turn_std_rad =
       turn_known ? turned_rad + kGyroBias_rad_s * kUsualInterval_s * between : kUnknownTurn_rad;
-  const double tilt_std_rad = tilted + kTilt_rad;
+  const double tilt_std_rad = (after.tail<3>() - down).norm() + kTilt_rad;
   const double noise_uT = now_.predictor.noise().field_uT;
   const Eigen::Vector3d by_turn = turn_std_rad * down.cross(field), moving = (after - first).head<3>();
   FieldContrast found;
@@ -311,15 +250,27 @@ std::optional<FieldContrast> Magnetometer::contrast(std::uint64_t onset, std::si
   return found;
 }
 
+bool Magnetometer::is_field_before() const {
+  if (!before_) return false;
+  // The criterion is that of the watch: readings less than two standard deviations off in the mean, by a fit
+  // that is accurate there.
+  constexpr double kFits = 4;
+  double sum = 0;
+  std::size_t known = 0;
+  for (const Waiting& waiting : waiting_) {
+    const auto exact = before_->predictor.exact(waiting.predicted);
+    sum += std::min(exact.surprise, 25.0);
+    if (exact.known) ++known;
+  }
+  return sum < kFits * static_cast<double>(waiting_.size()) && 2 * known > waiting_.size();
+}
+
 void Magnetometer::change_field(const FieldStep& found) {
   FieldStep step = found;
   const auto last = last_step();
-  const double rest_uT = last ? (last->size_uT + step.size_uT).norm() : 0;
-  const double size_uT = step.size_uT.norm(), error_uT = last ? (last->std_uT + step.std_uT).norm() : 0;
-  // A field that was seen from one side only fits many: the sizes must agree, too.
-  step.returned =
-      before_ && last &&
-      (rest_uT < kCancelled * size_uT || (step.returned && rest_uT < kCancelled * size_uT + 4 * error_uT));
+  // The fit of a field that was seen from one side only does not tell whether a reading is of it.
+  const bool cancels = before_ && last && (last->size_uT + step.size_uT).norm() < kCancelled * step.size_uT.norm();
+  step.returned = cancels || is_field_before();
   refine_history(step.returned);
   if (step.returned && last && last->std_uT.norm() < step.std_uT.norm()) {
     step.size_uT = -last->size_uT;
@@ -336,7 +287,6 @@ void Magnetometer::change_field(const FieldStep& found) {
   for (const Waiting& waiting : waiting_) use(waiting);
   waiting_.clear();
   next_decision_ = 0;
-  now_.fit(&*before_);
 }
 
 }  // namespace navcal::calib
