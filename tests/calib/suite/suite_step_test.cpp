@@ -58,7 +58,7 @@ class Tumbler {
       reading.heading_rad = levelled_heading(field.field_body_uT, field.roll_rad, field.pitch_rad);
       if (const auto heading_rad = corrected_heading(suite_.in_force().correction(), reading);
           heading_rad && k >= settling) {
-        const double error_rad = base::wrapped(*heading_rad - tumbling(i_).heading_rad - std::atan2(0.6, 19.0));
+        const double error_rad = base::wrapped(*heading_rad - tumbling(i_).heading_rad);
         squares += std::pow(error_rad, 2);
         ++count;
       }
