@@ -2,7 +2,6 @@
 #include "protocols/water_linked.h"
 
 #include <charconv>
-#include <charconv>
 #include <concepts>
 #include <string>
 #include <utility>

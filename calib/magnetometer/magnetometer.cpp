@@ -111,6 +111,7 @@ void Magnetometer::refine_history(bool is_sure) {
   now_.ellipsoid.absorb(before_->ellipsoid);
   before_.reset();
   --field_steps_;
+  ++withdrawn_steps_;
 }
 
 void Magnetometer::release() {
@@ -159,9 +160,10 @@ void Magnetometer::settle() {
 }
 
 void Magnetometer::archive(Archive& archive) {
-  archive.tag("magnetometer 2");
+  archive.tag("magnetometer 3");
   answer_.reset();
-  archive(parameters_.gyro.gyro, now_, watch_, history_, field_steps_, readings_, left_out_, turn_broken_);
+  archive(parameters_.gyro.gyro, now_, watch_, history_, field_steps_, withdrawn_steps_, readings_, left_out_,
+          turn_broken_);
   archive(last_down_, last_time_s_, next_decision_);
   const auto archive_list = [&](auto& list) {
     std::uint64_t count = list.size();

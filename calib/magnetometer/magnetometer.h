@@ -79,7 +79,9 @@ class Magnetometer {
   [[nodiscard]] const EllipseGyro& gyro_aided() const { return now_.gyro; }
   [[nodiscard]] const EllipsoidEstimator& ellipsoid() const { return now_.ellipsoid; }
 
+  /// Steps told so far, without those that were withdrawn; and the number of these.
   [[nodiscard]] std::uint32_t field_steps() const { return field_steps_; }
+  [[nodiscard]] std::uint32_t withdrawn_steps() const { return withdrawn_steps_; }
   [[nodiscard]] std::optional<FieldStep> last_step() const;
   /// Steps, and the segments between them.
   [[nodiscard]] const FieldHistory& history() const { return history_; }
@@ -158,7 +160,7 @@ class Magnetometer {
   std::deque<FieldCells<3, 6>::Cell> past_;  ///< the last that were used
   std::optional<Eigen::Vector3d> last_down_;
   double last_time_s_ = 0;
-  std::uint32_t field_steps_ = 0;
+  std::uint32_t field_steps_ = 0, withdrawn_steps_ = 0;
   std::uint64_t readings_ = 0;
   std::uint64_t left_out_ = 0;
   mutable std::optional<Answer> answer_;  ///< to judge takes longer than to learn; empty: not asked since

@@ -138,8 +138,9 @@ std::optional<Calibrator> Suite::take_adopted() {
 
 std::optional<FieldStep> Suite::take_field_step() {
   const Magnetometer& magnetometer = estimators_.magnetometer();
-  const bool is_new = magnetometer.field_steps() > told_steps_;
-  told_steps_ = magnetometer.field_steps();  // steps are minutes apart: never two at once
+  const std::uint32_t told = magnetometer.field_steps() + magnetometer.withdrawn_steps();
+  const bool is_new = told > told_steps_;
+  told_steps_ = told;  // steps are minutes apart: never two at once
   return is_new ? magnetometer.last_step() : std::nullopt;
 }
 
@@ -267,7 +268,7 @@ void Suite::archive(Archive& archive) {
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].held);
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].adopted);
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].left);
-  archive(rose_, told_steps_, followed_steps_, learnt_steps_, moved_);
+  archive(rose_, told_steps_, followed_steps_, followed_withdrawn_, learnt_steps_, moved_);
   if (!archive.saving()) {
     // A state that is older than a calibrator does not contain it, so that calibrator starts anew.
     for (const Calibrator calibrator : all.subspan(kNamedCalibrators)) {

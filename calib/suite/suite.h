@@ -107,7 +107,7 @@ class Suite {
   std::vector<Calibrator> judged_;
   HeadingHistogram rose_{};
   std::uint32_t told_steps_ = 0;
-  std::uint32_t followed_steps_ = 0;
+  std::uint32_t followed_steps_ = 0, followed_withdrawn_ = 0;
   std::uint32_t learnt_steps_ = 0;  ///< steps told before the hard iron in force was learnt
   IronShift moved_;                 ///< by which it was moved since
 };

@@ -31,8 +31,12 @@ void Suite::follow_field() {
   constexpr Calibrator kIron = Calibrator::magnetometer;
   const FieldHistory& history = estimators_.magnetometer().history();
   const std::uint32_t steps = estimators_.magnetometer().field_steps();
-  const std::uint32_t before = std::exchange(followed_steps_, steps);
-  learnt_steps_ = std::min(learnt_steps_, steps);
+  const std::uint32_t withdrawn = estimators_.magnetometer().withdrawn_steps();
+  const bool is_withdrawn = withdrawn != std::exchange(followed_withdrawn_, withdrawn);
+  // A step may be withdrawn and the next one told between two calls.
+  std::uint32_t before = std::exchange(followed_steps_, steps);
+  if (is_withdrawn && before > 0) --before;
+  learnt_steps_ = std::min(learnt_steps_, is_withdrawn ? before : steps);
   if (learnt_steps_ + history.steps().size() <
       steps) {  // steps that the history has dropped do not change any more
     learnt_steps_ = before;
@@ -40,7 +44,7 @@ void Suite::follow_field() {
   }
   const IronShift shift = history.shift_over(steps - learnt_steps_);
   const Eigen::Vector3d by_uT = shift.by_uT - moved_.by_uT;
-  if (steps == before && (by_uT.array().abs() < kLeastMove_uT).all()) return;
+  if (steps == before && !is_withdrawn && (by_uT.array().abs() < kLeastMove_uT).all()) return;
   moved_ = shift;
   in_force_.move_hard_iron(by_uT);
   flags_[index_of(kIron)].adopted |= has(in_force_.correction(), kIron);
@@ -49,7 +53,8 @@ void Suite::follow_field() {
   } else if (flags_[index_of(kIron)].left) {
     come_back(kIron);
   }
-  if (steps != before) change_field(steps > before ? &history.steps().back() : nullptr);
+  if (is_withdrawn) change_field(nullptr);
+  if (steps > before) change_field(&history.steps().back());
 }
 
 void Suite::leave(Calibrator calibrator, const Correction& rest) {
@@ -92,7 +97,7 @@ void Suite::change_field(const FieldStep* step) {
 }
 
 void Suite::forget_field() {
-  followed_steps_ = told_steps_ = learnt_steps_ = 0;
+  followed_steps_ = followed_withdrawn_ = told_steps_ = learnt_steps_ = 0;
   moved_ = {};
 }
 

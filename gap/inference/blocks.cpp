@@ -10,9 +10,9 @@
 namespace navcal::gap {
 namespace {
 
-/// Gain in log likelihood by the effects on the rows that are not learned from, nats: log p(judged | learned), with
-/// the effects minus without. It is the difference of two log evidences, so an estimate counts with its error: rows
-/// that cannot tell the effects predict little, and lose little.
+/// Gain in log likelihood by the effects on the rows that are not learned from, nats: log p(judged | learned),
+/// with the effects minus without. It is the difference of two log evidences, so an estimate counts with its
+/// error: rows that cannot tell the effects predict little, and lose little.
 double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, const LinearGaussianModel& model) {
   const Linearised& linear = model.linear;
   const Priors& priors = model.priors;

@@ -99,6 +99,22 @@ TEST(SuiteAtAStep, TheIronInForceMovesWithTheFieldAndComesBackWithIt) {
   }
 }
 
+// A step that is told in the first seconds is withdrawn when the magnet goes, in the same moment in which that is
+// told.
+TEST(SuiteAtAStep, AMagnetOfTheBeginningGoes) {
+  const Eigen::Vector3d step_uT(8.5, 7.1, 8.5);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const int readings : {20, 60, 90}) {
+      Tumbler vehicle(seed);
+      vehicle.go(readings, kIron_uT);
+      vehicle.go(800, kIron_uT + step_uT);
+      ASSERT_EQ(vehicle.suite().accept(Calibrator::magnetometer, true), "");
+      EXPECT_LT(vehicle.go(200, kIron_uT + step_uT), 0.05);
+      EXPECT_LT(vehicle.go(400, kIron_uT, kFound), 0.06) << readings << " readings, seed " << seed;
+    }
+  }
+}
+
 TEST(SuiteAtAStep, TheErrorInForceGrowsAndShrinksAsReadingsConfirm) {
   Tumbler vehicle(4);
   vehicle.go(600, kIron_uT);
