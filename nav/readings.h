@@ -14,11 +14,12 @@ namespace navcal::nav {
 struct RateReading {
   std::int64_t time_ns = 0;
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
-  std::optional<double> depth_m = std::nullopt, depth_std_m = std::nullopt;
+  std::optional<double> depth_m = std::nullopt;
   std::optional<Eigen::Vector3d> specific_force_m_s2 = std::nullopt;
   /// Places of the accelerometers and of the depth gauge, from the vehicle's origin.
   Eigen::Vector3d force_position_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d depth_position_m = Eigen::Vector3d::Zero();
+  std::optional<double> depth_std_m = std::nullopt;
 };
 
 /// Roll and pitch that are not those of an inclinometer with lag.

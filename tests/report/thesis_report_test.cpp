@@ -86,7 +86,7 @@ TEST(ThesisReport, EveryFigureHasCurves) {
 }
 
 /// A curve of a figure, (x, y).
-std::vector<std::pair<double, double>> curve_of(const std::string& figure, int panel, int curve) {
+std::vector<std::pair<double, double>> curve_of(const std::string& figure, std::size_t panel, std::size_t curve) {
   const auto& json = sample_json()["figures"][figure]["panels"][panel]["curves"][curve];
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < json["x"].size(); ++i) points.emplace_back(json["x"][i], json["y"][i]);
@@ -135,11 +135,11 @@ TEST(ThesisReport, LevelFieldsAreCirclesOf19MicroteslaAndTheirDistortions) {
   }
   // Marks: the field points forward when the vehicle heads north, and to port when it heads east.
   const std::vector<std::pair<double, double>> marks{{0, 19}, {-19, 0}, {0, -19}, {19, 0}};
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     const auto mark = curve_of("2.3", 0, i + 1);
     ASSERT_EQ(mark.size(), 1U);
-    EXPECT_NEAR(mark[0].first, marks[static_cast<std::size_t>(i)].first, 1e-6);
-    EXPECT_NEAR(mark[0].second, marks[static_cast<std::size_t>(i)].second, 1e-6);
+    EXPECT_NEAR(mark[0].first, marks[i].first, 1e-6);
+    EXPECT_NEAR(mark[0].second, marks[i].second, 1e-6);
   }
   double most_deg = 0;
   for (const auto& [starboard, forward] : curve_of("2.5", 0, 0))
