@@ -92,11 +92,11 @@ TEST_F(WrongUsage, WithoutACommandTheGroupsAreShown) {
   expect_refused("research", 2, "gap-trial");
 }
 
-TEST_F(WrongUsage, TheLinesToStartWithWorkAsTyped) {
+TEST_F(WrongUsage, TheLinesToStartWithoutAVehicleWorkAsTyped) {
   ASSERT_EQ(run("--help").status, 0);
   std::istringstream help(navcal::test::read_file(folder_ / "out"));
   std::string line;
-  while (std::getline(help, line) && !line.starts_with("Start with")) {
+  while (std::getline(help, line) && !line.starts_with("Start without")) {
   }
   int lines = 0;
   while (std::getline(help, line) && line.starts_with("  navcal ")) {
