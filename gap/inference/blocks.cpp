@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/blocks.h"
 
-#include <algorithm>
+#include <array>
 
 #include "gap/inference/evidence.h"
 #include "gap/inference/model_fit.h"
@@ -10,23 +10,27 @@
 namespace navcal::gap {
 namespace {
 
-/// Gain in log likelihood by the effects on the rows that are not learned from, nats: log p(judged | learned),
-/// with the effects minus without. It is the difference of two log evidences, so an estimate counts with its
-/// error: rows that cannot tell the effects predict little, and lose little.
-double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, const LinearGaussianModel& model) {
-  const Linearised& linear = model.linear;
-  const Priors& priors = model.priors;
-  const Eigen::VectorXd data = residual_at_zero(linear);
-  const Priors others = without_members(priors, model.library, effects);
-  Eigen::VectorXd wide = priors.spike;
-  for (const Eigen::Index j : parameter_indices(model.library, effects)) wide[j] = priors.slab[j];
-  const auto log_likelihood = [&](const Eigen::VectorXd& rows, const Eigen::VectorXd& prior) {
-    const Eigen::MatrixXd design = rows.asDiagonal() * linear.design;
-    return Evidence(design.transpose() * linear.design, design.transpose() * data, prior, prior).base();
+/// Gain in log likelihood by the effects on the rows that are not learned from, nats, for each of `learned` (1 in
+/// rows to learn from): log p(judged | learned), with the effects minus without. It is the difference of two log
+/// evidences, so an estimate counts with its error: rows that cannot tell the effects predict little, and lose
+/// little.
+std::vector<double> gains_beyond(std::span<const Eigen::VectorXd> learned, const EffectSubset& effects,
+                                 const LinearGaussianModel& model) {
+  const Eigen::MatrixXd& design = model.linear.design;
+  const Eigen::VectorXd data = residual_at_zero(model.linear);
+  const Eigen::VectorXd without = without_members(model.priors, model.library, effects).spike;
+  Eigen::VectorXd with = model.priors.spike;
+  for (const Eigen::Index j : parameter_indices(model.library, effects)) with[j] = model.priors.slab[j];
+  const auto gain_of = [&](const Eigen::VectorXd& rows) {
+    const Eigen::MatrixXd weighted = rows.asDiagonal() * design;
+    const Eigen::MatrixXd gram = weighted.transpose() * design;
+    const Eigen::VectorXd score = weighted.transpose() * data;
+    return Evidence(gram, score, with, with).base() - Evidence(gram, score, without, without).base();
   };
-  const Eigen::VectorXd all = Eigen::VectorXd::Ones(learn.size());
-  return log_likelihood(all, wide) - log_likelihood(learn, wide) - log_likelihood(all, others.spike) +
-         log_likelihood(learn, others.spike);
+  const double of_all = gain_of(Eigen::VectorXd::Ones(data.size()));
+  std::vector<double> gains;
+  for (const Eigen::VectorXd& rows : learned) gains.push_back(of_all - gain_of(rows));
+  return gains;
 }
 
 }  // namespace
@@ -45,25 +49,19 @@ std::vector<double> gains_of_blocks(const EffectSubset& effects, const LinearGau
   const Eigen::Index rows = model.linear.residual.size();
   Eigen::VectorXd mask(rows);
   for (Eigen::Index i = 0; i < rows; ++i) mask[i] = is_in_even_minute(i, layout, rows) ? 1 : 0;
-  std::vector<double> gains;
-  for (const bool learn_from_even : {true, false}) {
-    gains.push_back(
-        gain_beyond(learn_from_even ? mask : Eigen::VectorXd((1 - mask.array()).matrix()), effects, model));
-  }
-  return gains;
+  const std::array<Eigen::VectorXd, 2> learned{mask, 1 - mask.array()};
+  return gains_beyond(learned, effects, model);
 }
 
 std::vector<double> gains_of_recordings(const EffectSubset& effects, const LinearGaussianModel& model,
                                         std::span<const Eigen::Index> rows) {
-  std::vector<double> gains;
+  std::vector<Eigen::VectorXd> learned;
   Eigen::Index from = 0;
   for (const Eigen::Index count : rows) {
-    Eigen::VectorXd learn = Eigen::VectorXd::Ones(model.linear.residual.size());
-    learn.segment(from, count).setZero();
-    gains.push_back(gain_beyond(learn, effects, model));
+    learned.emplace_back(Eigen::VectorXd::Ones(model.linear.residual.size())).segment(from, count).setZero();
     from += count;
   }
-  return gains;
+  return gains_beyond(learned, effects, model);
 }
 
 }  // namespace navcal::gap
