@@ -76,8 +76,4 @@ std::vector<std::string> AutopilotCompass::names(int unit) {
   return names;
 }
 
-bool AutopilotCompass::is_optional(std::string_view name) {
-  return name.find("SCALE") != std::string_view::npos || name.find("MOT") != std::string_view::npos;
-}
-
 }  // namespace navcal::instruments

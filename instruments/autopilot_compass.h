@@ -27,10 +27,8 @@ class AutopilotCompass {
   [[nodiscard]] std::optional<Vector3> measured_uT(int unit, const Vector3& sent_uT,
                                                    std::optional<double> current_A) const;
   /// Parameters of `unit` in the order in which they are to be asked for: the calibration is complete with the
-  /// last.
+  /// last. Of COMPASS_SCALE and those of the motor some versions know nothing, which means that they do nothing.
   [[nodiscard]] static std::vector<std::string> names(int unit);
-  /// Parameters that some versions lack, which means that they do nothing.
-  [[nodiscard]] static bool is_optional(std::string_view name);
 
  private:
   struct Unit {

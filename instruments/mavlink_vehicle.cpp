@@ -95,12 +95,12 @@ constexpr std::int64_t kAutopilotLost_ns = 5 * base::kSecond_ns;
 /// and when the autopilot has restarted.
 class StartUpMavlink final : public StartUp {
  public:
-  explicit StartUpMavlink(const config::PortSettings& settings) {
+  explicit StartUpMavlink(const config::PortSettings& settings) : unit_(settings.inertial_unit - 1) {
     constexpr std::array<std::uint32_t, 3> kImu{27, 116, 129}, kPressure{29, 137, 143};
     constexpr std::uint32_t kOutputs = 36, kAttitude = 30, kBattery = 147, kGps = 24;
     const double rate_Hz = settings.rate_Hz > 0 ? settings.rate_Hz : 50;
-    compass_ = AutopilotCompass::names(settings.inertial_unit - 1);
-    imu_ = kImu.at(static_cast<std::size_t>(settings.inertial_unit - 1));
+    names_ = AutopilotCompass::names(unit_);
+    imu_ = kImu.at(static_cast<std::size_t>(unit_));
     if (settings.inertial_unit == 1) requests_.push_back({kHighresImu, rate_Hz});
     requests_.insert(requests_.end(),
                      {{imu_, rate_Hz}, {kOutputs, rate_Hz}, {kAttitude, 20}, {kBattery, 10}, {kGps, 5}});
@@ -121,14 +121,13 @@ class StartUpMavlink final : public StartUp {
         restarted_ = false;
         refused_.clear();
         unanswered_.clear();
-        bool has_high_resolution = false, has_calibration = true;
+        bool has_high_resolution = false;
         co_await send(heartbeat(), 0);
-        for (const std::string& name : compass_) {
+        for (const std::string& name : names_) {
           parameter_.clear();
           const bool is_known = co_await ask(reading(name), 3, base::kSecond_ns / 2,
                                              [&](const protocols::Frame&) { return parameter_ == name; });
-          has_calibration = is_known || AutopilotCompass::is_optional(name);
-          if (!has_calibration) break;
+          if (!is_known && name == names_.front()) break;  // not ArduPilot
         }
         for (const Request& request : requests_) {
           if (request.first == imu_ && has_high_resolution) continue;
@@ -142,8 +141,9 @@ class StartUpMavlink final : public StartUp {
           else if (!is_accepted)
             note(is_answered ? refused_ : unanswered_, std::string(mavlink::message_of(request.first)->name));
         }
-        enter(fmt::format("running, system {}; the compass's own calibration {}", *vehicle_,
-                          has_calibration ? "is undone" : "is not known, and stays in the field"),
+        enter(fmt::format(
+                  "running, system {}; the compass's own calibration {}", *vehicle_,
+                  compass_.measured_uT(unit_, {}, 0.0) ? "is undone" : "is not known, and stays in the field"),
               true);
         for (int i = 0; i < kHeartbeatsOfRound && !restarted_ && now_ns() - heard_ns_ < kAutopilotLost_ns; ++i)
           co_await send(heartbeat(), base::kSecond_ns);
@@ -162,7 +162,10 @@ class StartUpMavlink final : public StartUp {
     if (message.id == kAck && payload.at<std::uint16_t>(0) == kSetMessageInterval &&
         (payload.at<std::uint8_t>(9) == 0 || payload.at<std::uint8_t>(9) == kOurComponent))
       result_ = payload.at<std::uint8_t>(2);
-    if (message.id == kParameter) parameter_ = payload.text(8, 16);
+    if (message.id == kParameter) {
+      parameter_ = payload.text(8, 16);
+      compass_.take(parameter_, payload.at<float>(0));
+    }
     if (message.id != 30) return;
     const auto boot_ms = payload.at<std::uint32_t>(0);
     if (boot_ms < boot_ms_ && boot_ms_ - boot_ms > 1000) restarted_ = true;
@@ -194,9 +197,11 @@ class StartUpMavlink final : public StartUp {
 
   static constexpr int kNoAnswer = -1;
   std::vector<Request> requests_;
-  std::vector<std::string> compass_;  ///< parameters
-  std::string parameter_;             ///< name of the newest that came
-  std::uint32_t imu_ = 0;             ///< the message of the inertial unit, without HIGHRES_IMU
+  int unit_;                        ///< instance of the inertial unit and its compass
+  std::vector<std::string> names_;  ///< parameters of the compass
+  AutopilotCompass compass_;
+  std::string parameter_;  ///< name of the newest that came
+  std::uint32_t imu_ = 0;  ///< the message of the inertial unit, without HIGHRES_IMU
   std::optional<std::uint8_t> vehicle_;
   std::int64_t heard_ns_ = 0;
   std::uint32_t boot_ms_ = 0;

@@ -183,6 +183,7 @@ TEST_F(Vehicle, AnotherComponentHasAClockOfItsOwn) {
 /// An autopilot that accepts what it can.
 struct FakeAutopilot {
   bool has_high_resolution = true, is_deaf = false, knows_calibration = true;
+  float motor_source = 0;
   std::vector<std::uint32_t> asked{};
   int heartbeats = 0;
 
@@ -196,7 +197,9 @@ struct FakeAutopilot {
     if (found.message.id == 20 && knows_calibration && !is_deaf) {
       EXPECT_EQ(payload.at<std::int16_t>(0), -1);
       const std::string name = payload.text(4, 16);
-      if (name != "COMPASS_SCALE") say(dialogue, 22, parameter_value(name, 1));
+      const bool is_one = name.find("DIA") != std::string::npos;
+      const float value = name == "COMPASS_MOTCT" ? motor_source : is_one ? 1.0F : 0.5F;
+      if (name != "COMPASS_SCALE") say(dialogue, 22, parameter_value(name, value));
     }
     if (found.message.id != 76) return;
     EXPECT_EQ(payload.at<std::uint16_t>(28), 511);
@@ -236,6 +239,14 @@ TEST_F(MavlinkDialogue, WaitsForAnAutopilotAndAsksForItsMessages) {
   EXPECT_GE(autopilot.heartbeats, 8);
   EXPECT_TRUE(dialogue.start_up().in_service());
   EXPECT_EQ(dialogue.state(), "running, system 1; the compass's own calibration is undone");
+}
+
+TEST_F(MavlinkDialogue, ACalibrationByTheThrottleIsNotSaidToBeUndone) {
+  autopilot.motor_source = 1;
+  dialogue.begin();
+  live(10, 100);
+  EXPECT_EQ(dialogue.state(),
+            "running, system 1; the compass's own calibration is not known, and stays in the field");
 }
 
 TEST_F(MavlinkDialogue, SaysThatTheCalibrationIsNotKnown) {
