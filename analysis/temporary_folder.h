@@ -10,8 +10,8 @@
 
 namespace navcal::analysis {
 
-/// A folder for the log of a recording that is none. It goes with everything in it. Throws std::system_error when
-/// none can be made.
+/// A folder whose name says nothing. It goes with everything in it. Throws std::system_error when none can be
+/// made.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

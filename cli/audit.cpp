@@ -13,6 +13,7 @@
 #include "base/interruptible.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
+#include "cli/option_kinds.h"
 #include "cli/result_file.h"
 #include "cli/shared_options.h"
 #include "config/layout/layout_file.h"
@@ -114,19 +115,15 @@ void add_audit(CLI::App& app) {
           "log or capture of navcal, or a log of another system, known by its content; of several, each is "
           "compared with the first")
       ->required();
-  command->add_option("--vehicle", arguments->vehicle, "layout: commands are checked against the motion, too")
-      ->option_text("LAYOUT.toml");
-  command
-      ->add_option("--map", arguments->map,
-                   "meaning of the columns of a CSV file, or of the outputs of another log")
-      ->option_text("FILE.toml");
+  add_valued(command, "--vehicle", "LAYOUT.toml", arguments->vehicle,
+             "layout: commands are checked against the motion, too");
+  add_valued(command, "--map", "FILE.toml", arguments->map,
+             "meaning of the columns of a CSV file, or of the outputs of another log");
   add_window(*command, *arguments);
-  command
-      ->add_option("--json", arguments->json,
-                   "the findings as one JSON object; - is standard output, without text")
-      ->option_text("FILE|-");
-  command->add_option("--report", arguments->report, "page to write, with pictures; needs no other file")
-      ->option_text("FILE.html");
+  add_valued(command, "--json", "FILE|-", arguments->json,
+             "the findings as one JSON object; - is standard output, without text");
+  add_valued(command, "--report", "FILE.html", arguments->report,
+             "page to write, with pictures; needs no other file");
   command->footer(
       "Needs no configuration. A finding is judged on parts of the log that it was not fitted to. Ctrl-C ends "
       "the\n"

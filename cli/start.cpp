@@ -13,9 +13,11 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/temporary_folder.h"
 #include "base/interruptible.h"
 #include "cli/commands.h"
 #include "cli/doctor_checks.h"
+#include "cli/option_kinds.h"
 #include "cli/result_file.h"
 #include "cli/start_plan.h"
 #include "cli/watch_stream.h"
@@ -23,7 +25,6 @@
 #include "fleet/slurm.h"
 #include "ports/finder.h"
 #include "ports/holder.h"
-#include "validation/child.h"
 
 namespace navcal::cli {
 namespace {
@@ -197,7 +198,7 @@ void start(const StartCommandOptions& options) {
   write_configuration(plan);
   check_configuration(navcald[0], plan.configuration);
 
-  std::optional<validation::FreshFolder> trial;  // in the place of the service's folders
+  std::optional<analysis::TemporaryFolder> trial;  // in the place of the service's folders
   if (plan.is_service) {
     const std::string folder = trial.emplace().path();
     navcald.insert(navcald.end(), {"--set", "log.enabled=false", "--set", "log.directory=" + folder, "--set",
@@ -242,34 +243,23 @@ void add_start(CLI::App& app) {
       app.add_subcommand("start", "configures, checks and runs navcald for a common vehicle or device");
   const auto options = std::make_shared<StartCommandOptions>();
   StartRequest& request = options->request;
-  command
-      ->add_option(
-          "--for", request.kind,
-          "what there is: a BlueROV2, nodes of ROS 2, a receiver that gpsd reads, a device with NMEA 0183")
+  add_valued(command, "--for", "bluerov2|ros2|gpsd|nmea", request.kind,
+             "what there is: a BlueROV2, nodes of ROS 2, a receiver that gpsd reads, a device with NMEA 0183")
       ->check(CLI::IsMember(std::vector<std::string>{"bluerov2", "ros2", "gpsd", "nmea"}))
-      ->option_text("bluerov2|ros2|gpsd|nmea")
       ->required();
-  command
-      ->add_option("--output", request.output, "configuration to write; a file that is there is not written over")
-      ->option_text("FILE [navcal-KIND/navcald.toml]");
-  command
-      ->add_option("--address", request.address, "bluerov2 and nmea: place in the network (docs/network-ports.md)")
-      ->option_text("ADDRESS [bluerov2: udp:0.0.0.0:14551]");
-  command->add_option("--device", request.device, "bluerov2, gpsd and nmea: serial port")
-      ->option_text("PATH [gpsd, nmea: the only one there]");
-  command->add_option("--baud", request.baud, "its speed")
-      ->check(CLI::Range(50, 4000000))
-      ->option_text("BAUD [bluerov2 115200, gpsd 9600, nmea 4800]");
-  command->add_option("--in", request.topics, "ros2: topic that is taken; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->option_text("KIND=/TOPIC [imu=/imu/data mag=/imu/mag fix=/fix]");
-  command->add_option("--port", request.status_port, "navcald's status port")
-      ->check(CLI::Range(1, 65535))
-      ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "time of listening to what arrives")
-      ->check(CLI::Range(1.0, 3600.0))
-      ->capture_default_str();
+  add_valued(command, "--output", "FILE [navcal-KIND/navcald.toml]", request.output,
+             "configuration to write; a file that is there is not written over");
+  add_valued(command, "--address", "ADDRESS [bluerov2: udp:0.0.0.0:14551]", request.address,
+             "bluerov2 and nmea: place in the network (docs/network-ports.md)");
+  add_valued(command, "--device", "PATH [gpsd, nmea: the only one there]", request.device,
+             "bluerov2, gpsd and nmea: serial port");
+  add_valued(command, "--baud", "BAUD [bluerov2 115200, gpsd 9600, nmea 4800]", request.baud, "its speed")
+      ->check(CLI::Range(50, 4000000));
+  add_repeatable(command, "--in", "KIND=/TOPIC [imu=/imu/data mag=/imu/mag fix=/fix]", request.topics,
+                 "ros2: topic that is taken; may be repeated")
+      ->take_all();
+  add_number(command, "--port", 1, 65535, request.status_port, "navcald's status port");
+  add_number(command, "--seconds", 1.0, 3600.0, options->seconds, "time of listening to what arrives");
   command->footer(
       "Writes a configuration, checks it, runs navcald, and says what arrives, at which rate and with which "
       "times; what\n"

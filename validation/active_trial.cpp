@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "analysis/temporary_folder.h"
 #include "base/interruptible.h"
 #include "config/mission_file.h"
 #include "validation/child.h"
@@ -100,7 +101,7 @@ class ActiveCase {
   const TrialCase& drawn_;
   const ActiveOptions& options_;
   reference::Rng dice_;
-  FreshFolder folder_;
+  analysis::TemporaryFolder folder_;
   fs::path vehicle_, first_, holdout_;
   reference::Mission survey_;
   int day_ = 0;
