@@ -56,11 +56,4 @@ std::optional<Bounded> root_mean_square_bounded(const std::vector<double>& time_
   return Bounded{std::sqrt(square->value), std::sqrt(std::max(square->low, 0.0)), std::sqrt(square->high)};
 }
 
-double quantile(std::vector<double> numbers, double share) {
-  if (numbers.empty()) return 0;
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(numbers.size() - 1));
-  std::nth_element(numbers.begin(), numbers.begin() + place, numbers.end());
-  return numbers[static_cast<std::size_t>(place)];
-}
-
 }  // namespace navcal::analysis

@@ -26,7 +26,4 @@ struct Bounded {
 [[nodiscard]] std::optional<Bounded> root_mean_square_bounded(const std::vector<double>& time_s,
                                                               std::vector<double> values);
 
-/// The value that `share` of the numbers lie below; 0 without numbers.
-[[nodiscard]] double quantile(std::vector<double> numbers, double share);
-
 }  // namespace navcal::analysis

@@ -80,13 +80,6 @@ QuietWindow window_at(const std::vector<QuietBlock>& blocks, std::size_t first) 
   return window;
 }
 
-double quantile_of(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// Ratio of the largest to the mean of a chi-squared variable that chance gives.
 double largest_by_chance(double freedom) {
   const boost::math::chi_squared distribution(std::max(freedom, 1.0));
@@ -108,14 +101,14 @@ class Judge {
       gammas.push_back(window.gamma1);
       if (window.gamma1 > 0) correlations.push_back(window.gamma2 / window.gamma1 - 1);
     }
-    own_gamma_ = quantile_of(gammas, 0.5);
-    const double a = std::clamp(quantile_of(correlations, 0.5), 0.0, kMostCorrelation);
+    own_gamma_ = quantile(gammas, 0.5);
+    const double a = std::clamp(quantile(correlations, 0.5), 0.0, kMostCorrelation);
     filter_ = (1 + a) / ((1 - a) * (1 - a));
     std::vector<double> at_rest;
     for (const QuietWindow& window : windows_) {
       if (window.judged && window.slow <= slow_limit(window)) at_rest.push_back(window.gamma1);
     }
-    floor_gamma_ = quantile_of(at_rest, kFloorQuantile);
+    floor_gamma_ = quantile(at_rest, kFloorQuantile);
   }
 
   /// Squared ratio of the worst quantity to its limit: at most 1 at rest; nullopt: the channel does not judge.

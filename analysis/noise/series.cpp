@@ -112,6 +112,13 @@ double mean_period_s(const Series& series, const std::vector<Interval>& interval
   return steps > 0 ? length_s / steps : 0;
 }
 
+double quantile(std::vector<double> numbers, double share) {
+  if (numbers.empty()) return 0;
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(numbers.size() - 1));
+  std::nth_element(numbers.begin(), numbers.begin() + place, numbers.end());
+  return numbers[static_cast<std::size_t>(place)];
+}
+
 std::size_t reading_count(const Pieces& pieces) {
   std::size_t count = 0;
   for (const auto& piece : pieces) count += piece.size();

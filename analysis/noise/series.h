@@ -32,6 +32,8 @@ using Pieces = std::vector<std::vector<double>>;
 /// pieces.
 [[nodiscard]] double mean_period_s(const Series& series, const std::vector<Interval>& intervals, double period_s);
 
+/// The value that `share` of the numbers lie below; 0 without numbers.
+[[nodiscard]] double quantile(std::vector<double> numbers, double share);
 [[nodiscard]] std::size_t reading_count(const Pieces& pieces);
 [[nodiscard]] double mean_of(const Pieces& pieces);
 
