@@ -66,12 +66,15 @@ export class Values {
 }
 
 const dialog = $('ask');
-// Asks a question in a dialog; true for yes.
+let answered = Promise.resolve();
+// Asks a question in a dialog; true for yes. One after the other: a dialog says later that it was closed, and until then its
+// answer must not become that of the next question.
 export function ask(text) {
-  $('ask-text').textContent = text;
-  dialog.returnValue = 'no';
-  dialog.showModal();
-  return new Promise((answer) => {
+  answered = answered.then(() => new Promise((answer) => {
+    $('ask-text').textContent = text;
+    dialog.returnValue = 'no';
     dialog.addEventListener('close', () => answer(dialog.returnValue === 'yes'), {once: true});
-  });
+    dialog.showModal();
+  }));
+  return answered;
 }
