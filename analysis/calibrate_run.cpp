@@ -5,6 +5,7 @@
 
 #include <variant>
 
+#include "analysis/import/import_report.h"
 #include "analysis/port_matching.h"
 
 namespace navcal::analysis {
@@ -52,7 +53,7 @@ void CalibrateRun::play(const std::string& file, const record::Progress& progres
   file_begins_ = true;
   while (const auto entry = recording->next()) {
     at(file, time_of(*entry));
-    take(*entry, ports);
+    take(file, *entry, ports);
     if (history_ != nullptr) history_->look(*pipeline_);
     progress(recording->progress());
   }
@@ -95,7 +96,7 @@ void CalibrateRun::begin_ordered() {
   }
 }
 
-void CalibrateRun::take(const record::Entry& entry, const record::PortMatch& ports) {
+void CalibrateRun::take(const std::string& file, const record::Entry& entry, const record::PortMatch& ports) {
   if (const auto* raw = std::get_if<record::RawRead>(&entry)) {
     const auto port = ports[raw->port];
     if (raw->direction != record::Direction::received || !port) return;
@@ -106,7 +107,16 @@ void CalibrateRun::take(const record::Entry& entry, const record::PortMatch& por
     const bool starts = order->cause == pipeline::CalibrationChange::Cause::start && order->calibrator;
     if (starts && calib::row_of(*order->calibrator).by_order)
       pipeline_->order_calibration(pipeline::CalibrationOrder::start, *order->calibrator, newest_ns_, sink_);
+  } else if (const auto* event = std::get_if<record::LoggedEvent>(&entry)) {
+    if (has_corrected_fields_ || event->json.find(kCorrectedFields) == std::string::npos) return;
+    has_corrected_fields_ = true;
+    remarks_.push_back(fmt::format("{}: {}", file, kCorrectedFields));
   }
+}
+
+std::string CalibrateRun::field_port() const {
+  const auto port = pipeline_->sources()[config::Role::field];
+  return port ? settings_.ports[*port].name : std::string();
 }
 
 calib::Report CalibrateRun::finish() {

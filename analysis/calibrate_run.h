@@ -39,10 +39,14 @@ class CalibrateRun {
   [[nodiscard]] double duration_s() const { return static_cast<double>(duration_ns_) * 1e-9; }
   /// Irregularities, each with its file.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  /// An import says that an autopilot's own calibration is still in the fields.
+  [[nodiscard]] bool has_corrected_fields() const { return has_corrected_fields_; }
+  /// The port whose field serves; empty: none.
+  [[nodiscard]] std::string field_port() const;
 
  private:
   void begin_recording(const std::string& file, std::int64_t time_ns);
-  void take(const record::Entry& entry, const record::PortMatch& ports);
+  void take(const std::string& file, const record::Entry& entry, const record::PortMatch& ports);
   void at(const std::string& file, std::int64_t time_ns);
   void begin_ordered();
 
@@ -55,6 +59,7 @@ class CalibrateRun {
   std::int64_t duration_ns_ = 0;
   std::vector<std::string> remarks_;
   record::SeenRecordings seen_;
+  bool has_corrected_fields_ = false;
 };
 
 }  // namespace navcal::analysis

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/calibrate_run.h"
+#include "analysis/failure.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
@@ -13,6 +19,7 @@
 #include "cli/shared_options.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
+#include "report/autopilot_parameters.h"
 #include "report/calibrate_report.h"
 
 namespace navcal::cli {
@@ -20,16 +27,38 @@ namespace {
 
 struct CalibrateCommandOptions : WindowOptions {
   std::vector<std::string> files;
-  std::string config, report;
+  std::string config, report, parameters;
   bool json = false;
 };
 
+/// "compass2" is the second; a port of MAVLink says which it reads.
+int compass_unit(const config::Settings& settings, const std::string& port) {
+  const auto found = std::ranges::find(settings.ports, port, &config::PortSettings::name);
+  if (found != settings.ports.end() && found->protocol == protocols::Protocol::mavlink)
+    return found->inertial_unit;
+  return port.ends_with('2') ? 2 : port.ends_with('3') ? 3 : 1;
+}
+
+void write_parameters(const std::string& file, const calib::Report& report, const analysis::CalibrateRun& run) {
+  const auto refuse = [&](std::string_view why) {
+    throw analysis::Failure(analysis::Exit::failed, fmt::format("{} was not written: {}", file, why));
+  };
+  if (run.has_corrected_fields())
+    refuse("the autopilot's own calibration is still in the fields, and its parameters replace that one");
+  try {
+    write_result(file, report::autopilot_parameters(report, compass_unit(run.settings(), run.field_port())));
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
+  }
+}
+
 void calibrate(const CalibrateCommandOptions& options) {
   const record::TimeWindow window = options.window();
-  if (!options.report.empty()) expect_folder_of(options.report);
+  for (const std::string& file : {options.report, options.parameters})
+    if (!file.empty()) expect_folder_of(file);
   std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
   inputs.emplace_back(options.config);
-  expect_no_overwriting(inputs, {options.report});
+  expect_no_overwriting(inputs, {options.report, options.parameters});
   const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                : config::load(options.config);
   std::optional<analysis::CalibrateHistory> history;
@@ -56,6 +85,7 @@ void calibrate(const CalibrateCommandOptions& options) {
                                     run.remarks()};
     write_result(options.report, report::calibrate_page(report, *history, source));
   }
+  if (!options.parameters.empty()) write_parameters(options.parameters, report, run);
 }
 
 }  // namespace
@@ -73,6 +103,9 @@ void add_calibrate(CLI::App& app) {
   command->add_flag("--json", options->json, "one JSON object instead of text");
   add_valued(command, "--report", "FILE.html", options->report,
              "page to write, with pictures; needs no other file");
+  add_valued(
+      command, "--parameters", "FILE.param", options->parameters,
+      "parameters of ArduPilot (COMPASS_OFS_X ...) to write: its compass then corrects as this calibration");
   command->footer("Example: navcal calibrate --report dive.html dive.mcap");
   command->callback([options] { calibrate(*options); });
 }

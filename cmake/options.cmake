@@ -108,14 +108,14 @@ endfunction()
 
 # navcal_room(NAME [FOLDER room] [BATCH size] SOURCES... USES...): the library of one folder, linked as navcal::NAME
 # (a slash in the name becomes an underscore). USES are libraries of
-# others; the rooms that it links are those that it may include (cmake/rooms.cmake). BATCH: sources compiled together, 16 unless given.
+# others; the rooms that it links are those that it may include (cmake/rooms.cmake). BATCH: sources compiled together, 32 unless given.
 function(navcal_room name)
   cmake_parse_arguments(ROOM "" "FOLDER;BATCH" "SOURCES;USES" ${ARGN})
   if(NOT ROOM_FOLDER)
     set(ROOM_FOLDER ${name})
   endif()
   if(NOT ROOM_BATCH)
-    set(ROOM_BATCH 16)
+    set(ROOM_BATCH 32)
   endif()
   string(REPLACE / _ target navcal_${name})
   string(REPLACE / _ alias navcal::${name})

@@ -6,12 +6,12 @@
 namespace navcal::config {
 namespace {
 
-struct Description {
+struct TableText {
   std::string_view table;
   std::string_view words;
 };
 
-constexpr std::array<Description, 18> kTableDescriptions{{
+constexpr std::array<TableText, 18> kTableDescriptions{{
     {"vehicle", "Which vehicle this is. Logs, status reports and pages name it."},
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
@@ -46,7 +46,7 @@ constexpr std::array<Description, 18> kTableDescriptions{{
 }  // namespace
 
 std::string_view table_description(std::string_view table) {
-  for (const Description& description : kTableDescriptions) {
+  for (const TableText& description : kTableDescriptions) {
     if (description.table == table) return description.words;
   }
   return {};

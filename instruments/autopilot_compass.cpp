@@ -39,6 +39,12 @@ void AutopilotCompass::take(std::string_view name, double value) {
   if (kind == "MOT") of.motor_mG_per_A.at(axis) = value;
 }
 
+void AutopilotCompass::take_offset(int unit, const Vector3& offset_uT) {
+  if (!std::ranges::all_of(offset_uT, [](double value) { return std::isfinite(value); })) return;
+  std::ranges::transform(offset_uT, units_.at(static_cast<std::size_t>(unit)).offset_mG.begin(),
+                         [](double value_uT) { return value_uT / kMilliGauss_uT; });
+}
+
 std::optional<Vector3> AutopilotCompass::measured_uT(int unit, const Vector3& sent_uT,
                                                      std::optional<double> current_A) const {
   constexpr double kLeastDeterminant = 1e-3;

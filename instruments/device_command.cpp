@@ -98,8 +98,6 @@ std::optional<Outcome> defaults_set(const protocols::Frame& frame) {
   return Outcome{true, "almanac, time and position are forgotten; the first fix takes minutes"};
 }
 
-std::vector<std::uint8_t> bytes_of(tcm2::Verb verb) { return tcm2::encode_command({verb}); }
-
 Conversation restart_stream(const config::PortSettings& settings) {
   return {{{bytes_of(tcm2::Verb::halt), kBetweenHalts_ns},
            {bytes_of(tcm2::Verb::halt), kSettle_ns},

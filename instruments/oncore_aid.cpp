@@ -11,7 +11,7 @@ namespace {
 namespace oncore = protocols::oncore;
 
 /// After such a pause of its positions a receiver may have lost its power.
-constexpr std::int64_t kPause_ns = 3 * base::kSecond_ns;
+constexpr std::int64_t kOncorePause_ns = 3 * base::kSecond_ns;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void OncoreAid::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
   if (frame.id != oncore::kHa) return;
   const auto position = oncore::decode_position(frame.bytes);
   if (!position) return;
-  if (newest_ns_ && now_ns - *newest_ns_ >= kPause_ns) begin();
+  if (newest_ns_ && now_ns - *newest_ns_ >= kOncorePause_ns) begin();
   newest_ns_ = now_ns;
   const bool fixed = position->fix == protocols::Fix::fix_2d || position->fix == protocols::Fix::fix_3d;
   if (fixed) {

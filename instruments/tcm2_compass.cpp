@@ -104,8 +104,6 @@ std::vector<tcm2::Command> settings_for(const config::PortSettings& port) {
   return commands;
 }
 
-std::vector<std::uint8_t> bytes_of(Verb verb) { return tcm2::encode_command({verb}); }
-
 std::string text_of(const tcm2::Command& command) {
   const auto bytes = tcm2::encode_command(command);
   return {bytes.begin(), bytes.end() - 1};  // without its CR

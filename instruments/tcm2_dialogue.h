@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/durations.h"
+#include "protocols/tcm2_commands.h"
 
 /// Timing of a dialogue with a TCM2, at start-up and during its calibration (ICD section 1).
 namespace navcal::instruments {
@@ -20,5 +22,9 @@ inline constexpr std::int64_t kReplyTimeout_ns = 400 * base::kMillisecond_ns;
 inline constexpr std::int64_t kTcm2Stopped_ns = 3 * base::kSecond_ns;
 /// Attempts: the command and two repetitions.
 inline constexpr int kAttempts = 3;
+
+[[nodiscard]] inline std::vector<std::uint8_t> bytes_of(protocols::tcm2::Verb verb) {
+  return protocols::tcm2::encode_command({verb});
+}
 
 }  // namespace navcal::instruments

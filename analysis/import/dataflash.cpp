@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "analysis/import/dataflash_plan.h"
@@ -12,6 +15,7 @@
 #include "analysis/import/port_name.h"
 #include "analysis/import/servo_parameters.h"
 #include "base/angles.h"
+#include "instruments/autopilot_compass.h"
 
 namespace navcal::analysis {
 namespace {
@@ -27,13 +31,15 @@ constexpr int kNoInstance = -1;
 /// Reads the records of one file, from front to back.
 class DataFlashFile {
  public:
-  DataFlashFile(std::string_view file, ImportSink& sink, MotorChannels& channels)
-      : file_(file), sink_(sink), channels_(channels) {}
+  DataFlashFile(std::string_view file, ImportSink& sink, MotorChannels& channels, bool undoes_calibration)
+      : file_(file), sink_(sink), channels_(channels), undoes_calibration_(undoes_calibration) {}
   ImportFindings read();
 
  private:
   /// Length of the record at `at_`, 0 when none begins there.
   [[nodiscard]] std::size_t length_here() const;
+  void read_records(const std::function<void(std::uint8_t, std::string_view)>& on_record);
+  const Plan& plan_of(std::uint8_t type);
   void take(std::uint8_t type, std::string_view record);
   void take_known(const Plan& plan, std::uint8_t type, std::string_view record);
   /// Shaft and fins that the map makes of a record; false: none.
@@ -51,6 +57,9 @@ class DataFlashFile {
   void take_battery(const Plan& plan, std::string_view record, ImportedSample sample);
   void take_outputs(const Plan& plan, std::string_view record, ImportedSample sample);
   void take_text(const Plan& plan, std::string_view record);
+  void take_compass_parameter(const Plan& plan, std::string_view record);
+  /// Field without the autopilot's calibration; as it is logged where that is not known.
+  std::array<double, 3> measured_uT(const Plan& plan, std::string_view record);
 
   [[nodiscard]] std::optional<double> field(const Plan& plan, std::string_view record, std::size_t i) const {
     return plan.field(table_, record, i);
@@ -72,6 +81,8 @@ class DataFlashFile {
   std::map<int, std::array<std::optional<double>, 3>> accuracies_;  ///< newest GPA of each receiver
   bool is_submarine_ = false;  ///< ArduSub: its primary barometer is in the water
   std::int64_t primary_baro_ = 0;
+  bool undoes_calibration_;
+  instruments::AutopilotCompass compass_;
 };
 
 std::size_t DataFlashFile::length_here() const {
@@ -80,10 +91,31 @@ std::size_t DataFlashFile::length_here() const {
   return table_[static_cast<std::uint8_t>(rest[2])].length;
 }
 
+// Fields are logged before all parameters are. So the first value of each, which the second reading overwrites,
+// holds from the beginning.
 ImportFindings DataFlashFile::read() {
   constexpr std::size_t kProgressBytes = 1 << 16;
+  std::set<std::string, std::less<>> taken;
+  read_records([&](std::uint8_t type, std::string_view record) {
+    if (table_.learn(type, record)) return;
+    const Plan& plan = plan_of(type);
+    if (plan.kind() == Kind::parameter && taken.emplace(plan.text(record, 0)).second)
+      take_compass_parameter(plan, record);
+  });
+  table_ = Table();
+  plans_.fill({});
+  findings_ = {};
   std::size_t told = 0;
-  while (at_ < file_.size()) {
+  read_records([&](std::uint8_t type, std::string_view record) {
+    take(type, record);
+    if (at_ - told >= kProgressBytes) sink_.progress(told = at_);
+  });
+  if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
+  return std::move(findings_);
+}
+
+void DataFlashFile::read_records(const std::function<void(std::uint8_t, std::string_view)>& on_record) {
+  for (at_ = 0; at_ < file_.size();) {
     const std::size_t length = length_here();
     const std::size_t rest = file_.size() - at_;
     if (length > rest || (length == 0 && rest < dataflash::kHead_bytes)) {
@@ -97,18 +129,20 @@ ImportFindings DataFlashFile::read() {
     } else {
       const std::string_view record = file_.substr(at_, length);
       at_ += length;
-      take(static_cast<std::uint8_t>(record[2]), record);
+      on_record(static_cast<std::uint8_t>(record[2]), record);
     }
-    if (at_ - told >= kProgressBytes) sink_.progress(told = at_);
   }
-  if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
-  return std::move(findings_);
+}
+
+const Plan& DataFlashFile::plan_of(std::uint8_t type) {
+  Plan& plan = plans_[type];
+  if (plan.version() != table_.version()) plan = Plan(table_, table_[type]);
+  return plan;
 }
 
 void DataFlashFile::take(std::uint8_t type, std::string_view record) {
   if (table_.learn(type, record)) return;
-  Plan& plan = plans_[type];
-  if (plan.version() != table_.version()) plan = Plan(table_, table_[type]);
+  const Plan& plan = plan_of(type);
   const std::string& name = label(type, 0, false);
   if (plan.kind() == Kind::parameter || plan.kind() == Kind::text) take_text(plan, record);
   const bool is_mapped = take_channels(plan, type, record);
@@ -177,8 +211,23 @@ void DataFlashFile::take_imu(const Plan& plan, std::string_view record, Imported
 void DataFlashFile::take_mag(const Plan& plan, std::string_view record, ImportedSample sample) {
   if (field(plan, record, 3).value_or(1) == 0) return sink_.left(fmt::format("{} (not healthy)", sample.message));
   LineWriter line("COMPASS");
-  line.vector("field_body_uT", vector(plan, record, 0));
+  line.vector("field_body_uT", measured_uT(plan, record));
   sink_.sample(sample, line);
+}
+
+std::array<double, 3> DataFlashFile::measured_uT(const Plan& plan, std::string_view record) {
+  enum : std::size_t { sent = 0, motor = 4, offset = 7 };
+  instruments::Vector3 field_uT = vector(plan, record, sent);
+  const int unit = plan.instance(record);
+  if (undoes_calibration_ && unit >= 0 && unit < instruments::AutopilotCompass::kUnits) {
+    compass_.take_offset(unit, vector(plan, record, offset));
+    instruments::Vector3 without_motor_uT = field_uT;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      without_motor_uT[axis] -= field(plan, record, motor + axis).value_or(0);
+    if (const auto measured = compass_.measured_uT(unit, without_motor_uT, std::nullopt)) return *measured;
+  }
+  findings_.has_corrected_fields = true;
+  return field_uT;
 }
 
 void DataFlashFile::take_baro(const Plan& plan, std::string_view record, ImportedSample sample) {
@@ -256,6 +305,14 @@ void DataFlashFile::take_text(const Plan& plan, std::string_view record) {
   const auto value = field(plan, record, 1);
   if (plan.text(record, 0) == "BARO_PRIMARY") primary_baro_ = std::llround(value.value_or(0));
   if (value) servos_.take(plan.text(record, 0), *value);
+  take_compass_parameter(plan, record);
+}
+
+// What the motor's field was taken to be stands in each message.
+void DataFlashFile::take_compass_parameter(const Plan& plan, std::string_view record) {
+  const auto value = field(plan, record, 1);
+  const std::string_view name = plan.text(record, 0);
+  if (value && name != "COMPASS_MOTCT") compass_.take(name, *value);
 }
 
 }  // namespace
@@ -266,8 +323,9 @@ bool is_dataflash(std::string_view head) {
          head.substr(5, 3) == "FMT";
 }
 
-ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels) {
-  return DataFlashFile(file, sink, channels).read();
+ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels,
+                              bool undoes_calibration) {
+  return DataFlashFile(file, sink, channels, undoes_calibration).read();
 }
 
 }  // namespace navcal::analysis

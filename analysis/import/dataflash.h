@@ -15,6 +15,9 @@ namespace navcal::analysis {
 /// (with the errors of GPA), ATT, BAT and RCOU; columns, units and multipliers by FMT, FMTU, UNIT and MULT.
 /// ArduPilot's body axes are those of navcal: forward, starboard, down. `channels` become
 /// shaft and fins. docs/import.md has the table.
-[[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels);
+/// `undoes_calibration`: takes the autopilot's own calibration off the fields, by the offsets and motor field that
+/// each MAG states and by the COMPASS_ parameters of the log.
+[[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels,
+                                            bool undoes_calibration = true);
 
 }  // namespace navcal::analysis

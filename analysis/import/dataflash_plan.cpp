@@ -45,8 +45,11 @@ struct Field {
 constexpr std::array kImuFields{Field{"GyrX", &kRate},           Field{"GyrY", &kRate},  Field{"GyrZ", &kRate},
                                 Field{"AccX", &kForce},          Field{"AccY", &kForce}, Field{"AccZ", &kForce},
                                 Field{"T", &kTemperature, false}};
-constexpr std::array kMagFields{Field{"MagX", &kField}, Field{"MagY", &kField}, Field{"MagZ", &kField},
-                                Field{"Health", &kAny, false}};
+constexpr std::array kMagFields{Field{"MagX", &kField},        Field{"MagY", &kField},
+                                Field{"MagZ", &kField},        Field{"Health", &kAny, false},
+                                Field{"MOX", &kField, false},  Field{"MOY", &kField, false},
+                                Field{"MOZ", &kField, false},  Field{"OfsX", &kField, false},
+                                Field{"OfsY", &kField, false}, Field{"OfsZ", &kField, false}};
 constexpr std::array kBaroFields{Field{"Press", &kPressure}, Field{"Temp", &kTemperature, false},
                                  Field{"Alt", &kLength, false}};
 constexpr std::array kGpsFields{

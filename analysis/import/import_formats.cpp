@@ -6,6 +6,7 @@
 
 #include "analysis/import/csv_log.h"
 #include "analysis/import/dataflash.h"
+#include "analysis/import/import_report.h"
 #include "analysis/import/mavlink_log.h"
 #include "analysis/import/motor_channels.h"
 #include "analysis/import/ros_bag.h"
@@ -26,12 +27,17 @@ template <auto Read>
 ImportFindings read_with_channels(std::string_view file, const ImportOptions& options, ImportSink& sink) {
   MotorChannels channels;
   if (!options.map.empty()) channels = MotorChannels(config::load_channel_map(options.map));
+  constexpr bool kUndoes = requires { Read(file, sink, channels, true); };
   ImportFindings findings = [&] {
-    if constexpr (requires { Read(file, sink, channels, true); })
+    if constexpr (kUndoes)
       return Read(file, sink, channels, !options.keeps_calibration);
     else
       return Read(file, sink, channels);
   }();
+  if (findings.has_corrected_fields)
+    findings.remarks.push_back(std::string(kCorrectedFields) + (kUndoes && !options.keeps_calibration
+                                                                    ? ": the log lacks its COMPASS_ parameters"
+                                                                    : ""));
   channels.expect_all_found();
   for (std::string& remark : channels.remarks()) findings.remarks.push_back(std::move(remark));
   return findings;

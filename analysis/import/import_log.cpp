@@ -255,6 +255,13 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   const config::Settings settings = settings_for(input, ports);
   LogBuilder builder(settings, log);
   builder.begin({survey.first_ns(), mapping});
+  builder.tell("info", "import",
+               fmt::format("of {} ({}); UTC: {}{}{}", report.input, format.name,
+                           report.utc == ImportReport::Utc::unknown  ? "not known, times count from 2000-01-01"
+                           : report.utc == ImportReport::Utc::of_gps ? "by GPS"
+                                                                     : "of the file",
+                           findings.has_corrected_fields ? "; " : "",
+                           findings.has_corrected_fields ? kCorrectedFields : ""));
   Writing writing(builder, settings, survey.first_ns(), mapping.offset_ns, progress, file.bytes().size());
   (void)read(writing);
   survey.finish(report);
@@ -272,11 +279,6 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
       report.remarks.push_back(
           fmt::format("{}: frames without a sample: {}", ports[i], statistics.unused.words()));
   }
-  builder.tell("info", "import",
-               fmt::format("of {} ({}); UTC: {}", report.input, format.name,
-                           report.utc == ImportReport::Utc::unknown  ? "not known, times count from 2000-01-01"
-                           : report.utc == ImportReport::Utc::of_gps ? "by GPS"
-                                                                     : "of the file"));
   builder.commit();
   return report;
 }

@@ -5,10 +5,15 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace navcal::analysis {
+
+/// So the report and the event at the beginning of the log say it.
+inline constexpr std::string_view kCorrectedFields =
+    "fields of the compass are as the autopilot has corrected them";
 
 /// What was found in a log of another system, and what became of it.
 struct ImportReport {

@@ -44,6 +44,7 @@ struct ImportFindings {
   std::optional<std::uint64_t> cut_at{};  ///< first byte of a record that is not whole at the end of the file
   std::uint64_t damaged_bytes = 0;        ///< passed over until the next record
   std::vector<std::string> remarks{};
+  bool has_corrected_fields = false;  ///< of the compass: the autopilot's calibration is still in them
 };
 
 }  // namespace navcal::analysis

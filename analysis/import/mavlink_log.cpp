@@ -82,7 +82,8 @@ std::string servo_name(const MavlinkReading& output) { return fmt::format("servo
 class MavlinkFile {
  public:
   MavlinkFile(std::string_view file, ImportSink& sink, MotorChannels& channels, bool undoes_calibration)
-      : file_(file), sink_(sink), channels_(channels), undoes_calibration_(undoes_calibration) {}
+      : file_(file), sink_(sink), channels_(channels),
+        decoder_(undoes_calibration ? Calibration::taken_before : Calibration::kept) {}
   ImportFindings read();
 
  private:
@@ -99,8 +100,7 @@ class MavlinkFile {
   ServoParameters servos_;
   ImportFindings findings_;
   using Calibration = instruments::MavlinkDecoder::Calibration;
-  bool undoes_calibration_;
-  instruments::MavlinkDecoder decoder_{undoes_calibration_ ? Calibration::taken_before : Calibration::kept};
+  instruments::MavlinkDecoder decoder_;
   std::uint64_t untrimmed_ = 0;
 };
 
@@ -130,9 +130,7 @@ ImportFindings MavlinkFile::read() {
   if (untrimmed_ > 0)
     findings_.remarks.push_back(fmt::format(
         "{} frames had the checksum of before their zeros were cut (BlueOS), and were taken", untrimmed_));
-  if (decoder_.has_corrected_fields())
-    findings_.remarks.push_back(fmt::format("fields of the compass are as the autopilot has corrected them{}",
-                                            undoes_calibration_ ? ": the log lacks its COMPASS_ parameters" : ""));
+  findings_.has_corrected_fields = decoder_.has_corrected_fields();
   if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
   return std::move(findings_);
 }

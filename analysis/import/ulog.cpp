@@ -299,6 +299,7 @@ void UlogFile::take_data(std::string_view content) {
     if (receiver_ != subscription.target->message)
       return sink_.left(fmt::format("{} (the same as {})", subscription.label, receiver_));
   }
+  if (kind == PortKind::compass) findings_.has_corrected_fields = true;
   subscription.target->take(message, sample, sink_);
 }
 

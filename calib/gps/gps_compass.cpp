@@ -12,21 +12,21 @@
 namespace navcal::calib {
 namespace {
 
-using Unknowns = GpsCompass::Vector;
+using CompassUnknowns = GpsCompass::Vector;
 
 constexpr int kHeadings = 36;  // headings at which the uncertainty is evaluated
 constexpr int kMostSteps = 20;
 constexpr double kStepDone = 1e-12;
 
-Unknowns prior_mean(const GpsCompass::Parameters& parameters) {
-  Unknowns mean = Unknowns::Zero();
+CompassUnknowns prior_mean(const GpsCompass::Parameters& parameters) {
+  CompassUnknowns mean = CompassUnknowns::Zero();
   mean[GpsCoefficients::kSpeedScale] = 1;
   mean[GpsCoefficients::kSlip] = parameters.slip_s;
   return mean;
 }
 
-Unknowns prior_weight(const GpsCompass::Parameters& p) {
-  Unknowns std;
+CompassUnknowns prior_weight(const GpsCompass::Parameters& p) {
+  CompassUnknowns std;
   std << p.offset_std_rad, p.deviation_std_rad, p.deviation_std_rad, p.deviation_std_rad, p.deviation_std_rad,
       p.speed_scale_std, p.slip_std_s, p.current_std_m_s, p.current_std_m_s;
   return std.array().square().inverse();

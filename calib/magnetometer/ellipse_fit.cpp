@@ -12,8 +12,8 @@
 namespace navcal::calib {
 namespace {
 
-constexpr double kOutlier = 6;         // cells further off, in standard deviations of one reading, count less
-constexpr double kPriorReadings = 20;  // weight of the prior noise
+constexpr double kOutlier = 6;      // cells further off, in standard deviations of one reading, count less
+constexpr double kPriorCount = 20;  // weight of the prior noise
 
 struct Distance {
   double distance_uT = 0;
@@ -102,8 +102,8 @@ EllipseFit improve(const EllipseFit& fit, const EllipseCells& cells, double nois
   const double scale = std::max(fit.residual_uT, noise_uT);
   const Sums sums(fit.shape, cells, scale);
   EllipseFit next = fit;
-  const double variance = (kPriorReadings * noise_uT * noise_uT + sums.square) /
-                          std::max(kPriorReadings + sums.count - EllipseShape::kParameters, 1.0);
+  const double variance = (kPriorCount * noise_uT * noise_uT + sums.square) /
+                          std::max(kPriorCount + sums.count - EllipseShape::kParameters, 1.0);
   next.residual_uT = std::sqrt(variance);
   next.misfit = sums.misfit(variance);
   // A ridge of one reading in a hundred thousand, so that what is not seen has a large variance and no division

@@ -11,12 +11,12 @@ namespace navcal::calib {
 namespace {
 
 using Cell = FieldCells<3, 6>::Cell;
-using Vector = EllipsoidShape::Vector;
+using ShapeVector = EllipsoidShape::Vector;
 using Matrix = EllipsoidShape::Matrix;
 
 /// The prior as a mean and an information matrix about the point of linearisation.
 struct Known {
-  Vector mean = Vector::Zero();  ///< less the shape
+  ShapeVector mean = ShapeVector::Zero();  ///< less the shape
   Matrix information = Matrix::Zero();
 
   Known(const EllipsoidShape& shape, const EllipsoidShape& scale, const EllipsoidPrior& prior) {
@@ -73,7 +73,7 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
                      const EllipsoidPrior& prior) {
   const Known known(fit.shape, fit.shape, prior);
   Matrix information = known.information;
-  Vector gradient = known.information * known.mean;
+  ShapeVector gradient = known.information * known.mean;
   double cost = known.cost();
   for (const Cell& cell : cells) {
     const EllipsoidResidual r = residual_of(fit.shape, cell, noise);
@@ -87,7 +87,7 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
     cost += cell.count * outlier_cost(square);
   }
   // Each parameter is scaled by its own information, so that centre (uT) and matrix (1/uT) are comparable.
-  const Vector scale = information.diagonal().cwiseSqrt().cwiseInverse();
+  const ShapeVector scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix scaled = scale.asDiagonal() * information * scale.asDiagonal() + 1e-13 * Matrix::Identity().eval();
   const auto solved = [&](double damping, const auto& right) {
     Matrix damped = scaled;
@@ -96,10 +96,10 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
   };
   EllipsoidFit next = fit;
   next.covariance = solved(0, Matrix::Identity().eval());
-  const Vector step = solved(fit.damping, gradient);
+  const ShapeVector step = solved(fit.damping, gradient);
   const EllipsoidShape moved = fit.shape.moved(step);
   // Close to the end the cost no longer tells: the arc within a cell has a slope of its own that is left out here.
-  const Vector moved_by = step.cwiseQuotient(next.covariance.diagonal().cwiseSqrt());
+  const ShapeVector moved_by = step.cwiseQuotient(next.covariance.diagonal().cwiseSqrt());
   const double moved_most = std::max(step.head<3>().norm() / fit.shape.radius_uT(),
                                      step.segment<6>(3).norm() / fit.shape.matrix_per_uT.norm());
   const bool close = fit.damping == 0 && moved_most < 1e-3;

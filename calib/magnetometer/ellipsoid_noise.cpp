@@ -113,7 +113,7 @@ Departures departures_of(const EllipsoidShape& shape, const EllipsoidCells& cell
 }
 
 /// Standard deviation with the believed one as kEllipsoidPriorReadings of the readings.
-double pooled(double square, double count, double believed) {
+double pooled_noise(double square, double count, double believed) {
   const double prior = kEllipsoidPriorReadings * believed * believed;
   return std::sqrt((prior + square * count / std::max(1., count - 5)) / (kEllipsoidPriorReadings + count));
 }
@@ -130,12 +130,12 @@ EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& c
   double dip_by_field = 0;
   for (int round = 0; round < kRounds; ++round) {
     const Departures sums = departures_of(shape, cells, noise);
-    noise.field_uT = pooled(sums.size_square, sums.size_count, believed.field_uT);
+    noise.field_uT = pooled_noise(sums.size_square, sums.size_count, believed.field_uT);
     const double tilt2 =
         std::max(0., sums.dip_square - noise.field_uT * noise.field_uT * sums.dip_by_field) / across2;
     // Never less than the instrument's own: where the tilt hardly changes, a shape that follows its noise fits
     // best.
-    noise.tilt_rad = std::max(believed.tilt_rad, pooled(tilt2, sums.dip_count, believed.tilt_rad));
+    noise.tilt_rad = std::max(believed.tilt_rad, pooled_noise(tilt2, sums.dip_count, believed.tilt_rad));
     dip_by_field = sums.dip_count > 0 ? sums.dip_by_field / sums.dip_count : 0;
   }
   noise.field_inflation = blocks.size_inflation(shape);

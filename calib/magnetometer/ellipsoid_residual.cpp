@@ -9,7 +9,7 @@ namespace navcal::calib {
 namespace {
 
 using Cell = EllipsoidCells::value_type;
-constexpr double kOutlier2 = 36;  // six standard deviations of one reading, squared
+constexpr double kReadingOutlier2 = 36;  // six standard deviations of one reading, squared
 
 }  // namespace
 
@@ -50,7 +50,7 @@ EllipsoidRows slope_of(const EllipsoidShape& shape, const Cell& cell, const Elli
     const Eigen::Vector3d unit = m * off_centre;
     down -= residual.tilt2 * weighted[1] * (unit - down * down.dot(unit));
   }
-  if (residual.value.dot(weighted) <= kOutlier2) {
+  if (residual.value.dot(weighted) <= kReadingOutlier2) {
     const double field2 = noise.field_uT * noise.field_uT * noise.field_inflation;
     off_centre -= field2 * residual.by_field.transpose() * weighted;
   }
@@ -67,9 +67,9 @@ EllipsoidRows slope_of(const EllipsoidShape& shape, const Cell& cell, const Elli
   return rows;
 }
 
-double outlier_weight(double square) { return square <= kOutlier2 ? 1 : kOutlier2 / square; }
+double outlier_weight(double square) { return square <= kReadingOutlier2 ? 1 : kReadingOutlier2 / square; }
 double outlier_cost(double square) {
-  return square <= kOutlier2 ? square : kOutlier2 * (1 + std::log(square / kOutlier2));
+  return square <= kReadingOutlier2 ? square : kReadingOutlier2 * (1 + std::log(square / kReadingOutlier2));
 }
 
 }  // namespace navcal::calib

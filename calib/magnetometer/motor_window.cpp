@@ -14,7 +14,7 @@ namespace {
 
 // Places of the unknowns: field at the window's beginning, hard iron, gyro bias, yaw gyro's scale, delay, soft
 // iron.
-constexpr int kField = 0, kHard = 3, kBias = 6, kScale = 9, kDelay = 10, kSoft = 11, kNuisances = 20;
+constexpr int kField = 0, kHard = 3, kGyroBias = 6, kGyroScale = 9, kDelay = 10, kSoft = 11, kNuisances = 20;
 constexpr int kSlope = kNuisances, kAll = kNuisances + 3;
 constexpr int kIterations = 3;
 /// Field values that the stated noise counts for beside the window's own.
@@ -64,8 +64,8 @@ Unknowns prior_variance(const Motion& motion, double fixed_uT) {
     const double hard_uT = motion.tells(axis) ? kHard_uT : fixed_uT;
     variance[kHard + axis] = hard_uT * hard_uT;
   }
-  variance.segment<3>(kBias).setConstant(kBias_rad_s * kBias_rad_s);
-  variance[kScale] = kScaleError * kScaleError;
+  variance.segment<3>(kGyroBias).setConstant(kBias_rad_s * kBias_rad_s);
+  variance[kGyroScale] = kScaleError * kScaleError;
   variance[kDelay] = kDelay_s * kDelay_s;
   const double soft_iron = motion.tells(0) || motion.tells(2) ? kSoftIron : kFixedSoftIron;
   variance.segment<9>(kSoft).setConstant(soft_iron * soft_iron);
@@ -129,8 +129,8 @@ class Turning {
     Rows rows;
     rows.middleCols<3>(kField) = turned_;
     rows.middleCols<3>(kHard).setIdentity();
-    rows.middleCols<3>(kBias) = base::cross_product_matrix(u) * turned_ * bias_;
-    rows.col(kScale) = u.cross(turned_ * scale_);
+    rows.middleCols<3>(kGyroBias) = base::cross_product_matrix(u) * turned_ * bias_;
+    rows.col(kGyroScale) = u.cross(turned_ * scale_);
     rows.col(kDelay) = before_.rate_rad_s.cross(u);
     for (int i = 0; i < 3; ++i) rows.middleCols<3>(kSoft + 3 * i) = Eigen::Matrix3d::Identity() * u[i];
     rows.middleCols<3>(kSlope) = Eigen::Matrix3d::Identity() * before_.current_A;
@@ -139,7 +139,8 @@ class Turning {
   /// Right-hand side of the linear equations: the reading, plus the part that the point of linearisation has
   /// already put into the turn.
   [[nodiscard]] Eigen::Vector3d observed(const Rows& rows) const {
-    return before_.field_body_uT + rows.middleCols<3>(kBias) * point_.bias_rad_s + rows.col(kScale) * point_.scale;
+    return before_.field_body_uT + rows.middleCols<3>(kGyroBias) * point_.bias_rad_s +
+           rows.col(kGyroScale) * point_.scale;
   }
 
  private:
@@ -184,7 +185,7 @@ class WindowFilter {
     return (kPriorValues + square_) / (kPriorValues + values - kSpent);
   }
   [[nodiscard]] Point found() const {
-    return {state_.segment<3>(kField), state_.segment<3>(kBias), state_[kScale]};
+    return {state_.segment<3>(kField), state_.segment<3>(kGyroBias), state_[kGyroScale]};
   }
   [[nodiscard]] MotorFieldEvidence evidence(double values) const {
     MotorFieldEvidence evidence;

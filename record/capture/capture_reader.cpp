@@ -21,9 +21,9 @@ constexpr std::size_t kMaxBytes = 4096;
 /// The longest line with bytes has some 8.3 kB; comments may be longer.
 constexpr std::size_t kMaxLine = 64 << 10;
 constexpr std::size_t kMaxPorts = 1000;
-constexpr std::string_view kCapture = "#capture ";
+constexpr std::string_view kCaptureLine = "#capture ";
 constexpr std::string_view kPort = "#port ";
-constexpr std::string_view kEvent = "#event ";
+constexpr std::string_view kEventLine = "#event ";
 
 constexpr std::uint8_t kNoDigit = 0xFF;
 constexpr std::array<std::uint8_t, 256> kHexadecimal = [] {
@@ -75,8 +75,8 @@ CaptureReader::CaptureReader(std::unique_ptr<ByteSource> source, std::string nam
   std::string_view first;
   if (!read_line(first)) fail("empty: a capture begins with \"#capture 1\"");
   if (first != kCaptureFirstLine) {
-    fail(first.starts_with(kCapture) ? "this version of captures is not known; 1 is"
-                                     : "a capture begins with \"#capture 1\"");
+    fail(first.starts_with(kCaptureLine) ? "this version of captures is not known; 1 is"
+                                         : "a capture begins with \"#capture 1\"");
   }
   find_read();
 }
@@ -100,8 +100,8 @@ bool CaptureReader::find_read() {
       return true;
     }
     if (line.starts_with(kPort)) parse_port(line);
-    if (line.starts_with(kEvent)) events_.emplace_back(line.substr(kEvent.size()));
-    if (line.starts_with(kCapture)) fail("a second \"#capture\" line");
+    if (line.starts_with(kEventLine)) events_.emplace_back(line.substr(kEventLine.size()));
+    if (line.starts_with(kCaptureLine)) fail("a second \"#capture\" line");
   }
   pending_ = {};
   return false;

@@ -36,6 +36,27 @@ class Calibrate : public CalibrateCommand {
   }
 };
 
+TEST_F(Calibrate, ParametersOfAnAutopilotOnlyOfAnAcceptedEstimate) {
+  const std::string file = (folder_ / "a.param").string();
+  const Outcome written = run({"--parameters", file, write("a.cap", turning())});
+  EXPECT_EQ(written.status, 0) << written.message;
+  std::ifstream in(file);
+  const std::string content{std::istreambuf_iterator<char>(in), {}};
+  const auto value = [&](const std::string& name) {
+    const auto at = content.find(name + ',');
+    return at == std::string::npos ? 0 : std::stod(content.substr(at + name.size() + 1));
+  };
+  EXPECT_NEAR(value("COMPASS_OFS_X"), -40, 5) << content;
+  EXPECT_NEAR(value("COMPASS_OFS_Y"), 30, 5) << content;
+
+  const std::string not_turned = (folder_ / "b.param").string();
+  const auto straight = write("b.cap", simulated_recording(straight_path(60), with_iron(60)));
+  const Outcome refused = run({"--parameters", not_turned, straight});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.message.find("b.param was not written"), std::string::npos) << refused.message;
+  EXPECT_FALSE(std::filesystem::exists(not_turned));
+}
+
 TEST_F(Calibrate, TheKeysOfTheContract) {
   const Json json = json_of({write("a.cap", turning())});
   for (const char* part : {"gyro", "gyro_b"}) {

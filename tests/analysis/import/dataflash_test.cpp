@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/import/gps_week.h"
+#include "instruments/autopilot_compass.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
@@ -199,6 +200,45 @@ TEST(DataFlash, OldLogsWithoutUnitsAndWithNumberedNames) {
   RecordingSink sink;
   (void)read_dataflash(log.out, sink);
   expect_vector(sink.of_port("compass2").at(0).line["field_body_uT"], 10, 0, -10);
+}
+
+/// Fields of two compasses, whose offsets and motor fields stand beside them, and then the parameters of the
+/// second.
+std::string calibrated_log(const std::string& without) {
+  DataFlashWriter log;
+  log.format(11, 3 + 8 + 1 + 18, "MAG", "QBhhhhhhhhh", "TimeUS,I,MagX,MagY,MagZ,OfsX,OfsY,OfsZ,MOX,MOY,MOZ");
+  log.format(18, 3 + 8 + 16 + 4, "PARM", "QNf", "TimeUS,Name,Value");
+  for (const char unit : {'\0', '\1'}) {
+    log.head(11);
+    append_number(log.out, std::uint64_t{7});
+    log.out.push_back(unit);
+    append_all<std::int16_t>(log.out, {410, -200, 630, 10, -20, 30, 10, 0, -10});
+  }
+  for (const std::string& name : instruments::AutopilotCompass::names(1)) {
+    if (name == without) continue;
+    log.head(18);
+    append_number(log.out, std::uint64_t{8});
+    log.text(name, 16);
+    append_number(log.out, name == "COMPASS_DIA2_X"                                           ? 2.0F
+                           : name.find("DIA") != std::string::npos || name == "COMPASS_MOTCT" ? 1.0F
+                           : name.find("MOT2") != std::string::npos                           ? 5.0F
+                                                                                              : 0.0F);
+  }
+  return log.out;
+}
+
+TEST(DataFlash, TheCalibrationOfTheAutopilotIsUndoneWhereItIsKnown) {
+  const auto fields = [](const std::string& log, bool undoes) {
+    RecordingSink sink;
+    MotorChannels none;
+    EXPECT_TRUE(read_dataflash(log, sink, none, undoes).has_corrected_fields) << "of the first compass at least";
+    expect_vector(sink.of_port("compass").at(0).line["field_body_uT"], 41, -20, 63);
+    return sink.of_port("compass2").at(0).line["field_body_uT"];
+  };
+  // X: (410 - 10) / 2 - 10; Y: -200 - 0 + 20; Z: 630 + 10 - 30, in mGauss.
+  expect_vector(fields(calibrated_log(""), true), 19, -18, 61);
+  expect_vector(fields(calibrated_log("COMPASS_DIA2_Y"), true), 41, -20, 63);
+  expect_vector(fields(calibrated_log(""), false), 41, -20, 63);
 }
 
 TEST(DataFlash, EverySampleIsInTheLogOrCountedAsLeft) {

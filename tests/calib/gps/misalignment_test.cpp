@@ -123,7 +123,9 @@ TEST(Misalignment, RunsThatContradictEachOtherAreNoMisalignment) {
     ASSERT_TRUE(estimate);
     EXPECT_EQ(judgement.accepted, deviation_deg == 0) << deviation_deg;
     EXPECT_LT(std::abs(estimate->offset_rad - kOffset_rad), 3 * estimate->offset_std_rad) << deviation_deg;
-    if (deviation_deg > 0) EXPECT_NE(judgement.reason.find("contradict each other"), std::string::npos);
+    if (deviation_deg > 0) {
+      EXPECT_NE(judgement.reason.find("contradict each other"), std::string::npos);
+    }
   }
 }
 
