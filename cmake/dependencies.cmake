@@ -2,7 +2,7 @@
 # Packages of Debian 12 and 13; tools/dependencies.txt names them for installation.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
-find_package(Boost 1.74 REQUIRED)
+find_package(Boost 1.74 REQUIRED CONFIG)
 if(Boost_VERSION VERSION_LESS 1.81)
   # Asio of Boost 1.74 (Debian 12) does not include <utility>, which it needs, and takes clang for a compiler without coroutines.
   add_compile_options("SHELL:-include utility")

@@ -10,6 +10,14 @@
 
 namespace navcal::ros2::test {
 
+#if FASTCDR_VERSION_MAJOR >= 2  // Debian 13, with other names
+constexpr auto kDdsCdr = eprosima::fastcdr::CdrVersion::DDS_CDR;
+inline std::size_t length_of(const eprosima::fastcdr::Cdr& cdr) { return cdr.get_serialized_data_length(); }
+#else
+constexpr auto kDdsCdr = eprosima::fastcdr::Cdr::DDS_CDR;
+inline std::size_t length_of(const eprosima::fastcdr::Cdr& cdr) { return cdr.getSerializedDataLength(); }
+#endif
+
 /// Fast CDR over the bytes of one message: it reads, or it writes into a message of its own.
 class FastCdr {
  public:
@@ -17,7 +25,7 @@ class FastCdr {
       : bytes_(std::move(bytes)), is_reader_(!bytes_.empty()),
         buffer_(is_reader_ ? eprosima::fastcdr::FastBuffer(bytes_.data(), bytes_.size())
                            : eprosima::fastcdr::FastBuffer()),
-        cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR) {
+        cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, kDdsCdr) {
     if (is_reader_) {
       cdr_.read_encapsulation();
     } else {
@@ -55,7 +63,7 @@ class FastCdr {
         .put(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000))
         .put(frame_id);
   }
-  [[nodiscard]] std::string bytes() { return {buffer_.getBuffer(), cdr_.getSerializedDataLength()}; }
+  [[nodiscard]] std::string bytes() { return {buffer_.getBuffer(), length_of(cdr_)}; }
 
   std::string frame;
 

@@ -2,7 +2,14 @@
 #pragma once
 
 #include <fastcdr/Cdr.h>
+#if __has_include( \
+    <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>)  // Fast DDS 3 (Debian 13), with other names
+#define FAST_DDS_3
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
+#include <fastdds/utils/IPLocator.hpp>
+#else
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#endif
 
 #include <atomic>
 #include <chrono>
@@ -27,7 +34,13 @@
 namespace navcal::ros2::test {
 
 namespace dds = eprosima::fastdds::dds;
+#ifdef FAST_DDS_3
+namespace rtps = eprosima::fastdds::rtps;
+constexpr auto kOk = dds::RETCODE_OK;
+#else
 namespace rtps = eprosima::fastrtps::rtps;
+constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+#endif
 
 /// One message: its bytes, and when they came.
 struct Received {
@@ -42,29 +55,56 @@ inline std::int64_t utc_now_ns() {
 
 /// A type of which only its name is known.
 class RawType : public dds::TopicDataType {
+  static constexpr std::uint32_t kLargest = 1 << 20;
+
  public:
+#ifdef FAST_DDS_3
+  explicit RawType(const std::string& name) {
+    set_name(name);
+    max_serialized_type_size = kLargest;
+  }
+  bool serialize(const void* data, rtps::SerializedPayload_t& payload, dds::DataRepresentationId_t) override {
+    return put(data, payload);
+  }
+  bool deserialize(rtps::SerializedPayload_t& payload, void* data) override { return take(payload, data); }
+  std::uint32_t calculate_serialized_size(const void* data, dds::DataRepresentationId_t) override {
+    return size_of(data);
+  }
+  void* create_data() override { return new std::string; }
+  void delete_data(void* data) override { delete static_cast<std::string*>(data); }
+  bool compute_key(rtps::SerializedPayload_t&, rtps::InstanceHandle_t&, bool) override { return false; }
+  bool compute_key(const void*, rtps::InstanceHandle_t&, bool) override { return false; }
+#else
   explicit RawType(const std::string& name) {
     setName(name.c_str());
-    m_typeSize = 1 << 20;
+    m_typeSize = kLargest;
     m_isGetKeyDefined = false;
   }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    const auto& cdr = *static_cast<std::string*>(data);
-    std::copy(cdr.begin(), cdr.end(), payload->data);
-    payload->length = static_cast<std::uint32_t>(cdr.size());
-    payload->encapsulation = CDR_LE;
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    static_cast<std::string*>(data)->assign(reinterpret_cast<const char*>(payload->data), payload->length);
-    return true;
-  }
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override { return put(data, *payload); }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override { return take(*payload, data); }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<std::uint32_t>(static_cast<std::string*>(data)->size()); };
+    return [data] { return size_of(data); };
   }
   void* createData() override { return new std::string; }
   void deleteData(void* data) override { delete static_cast<std::string*>(data); }
   bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+#endif
+
+ private:
+  static bool put(const void* data, rtps::SerializedPayload_t& payload) {
+    const auto& cdr = *static_cast<const std::string*>(data);
+    std::copy(cdr.begin(), cdr.end(), payload.data);
+    payload.length = size_of(data);
+    payload.encapsulation = CDR_LE;
+    return true;
+  }
+  static bool take(const rtps::SerializedPayload_t& payload, void* data) {
+    static_cast<std::string*>(data)->assign(reinterpret_cast<const char*>(payload.data), payload.length);
+    return true;
+  }
+  static std::uint32_t size_of(const void* data) {
+    return static_cast<std::uint32_t>(static_cast<const std::string*>(data)->size());
+  }
 };
 
 class FastPeer {
@@ -110,7 +150,7 @@ class FastPeer {
     void on_data_available(dds::DataReader* reader) override {
       std::string cdr;
       dds::SampleInfo info;
-      while (reader->take_next_sample(&cdr, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      while (reader->take_next_sample(&cdr, &info) == kOk) {
         const std::lock_guard lock(mutex_);
         if (info.valid_data) received_.push_back({cdr, utc_now_ns()});
       }
