@@ -26,10 +26,9 @@ struct CalibrateCommandOptions : WindowOptions {
 
 void calibrate(const CalibrateCommandOptions& options) {
   const record::TimeWindow window = options.window();
-  if (!options.report.empty()) expect_folder_of(options.report);
   std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
   inputs.emplace_back(options.config);
-  expect_no_overwriting(inputs, {options.report});
+  expect_results(inputs, {options.report});
   const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                : config::load(options.config);
   std::optional<analysis::CalibrateHistory> history;
