@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_describe.h"
+#include "base/enum_name.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_messages.h"
 #include "protocols/oncore_position.h"
@@ -11,22 +12,11 @@ namespace oncore = protocols::oncore;
 using protocols::Date;
 
 std::string_view name_of(oncore::Antenna antenna) {
-  switch (antenna) {
-    case oncore::Antenna::ok: return "ok";
-    case oncore::Antenna::shorted: return "short";
-    case oncore::Antenna::open: return "open";
-    case oncore::Antenna::unknown: break;
-  }
-  return "unknown";
+  return base::enum_name<oncore::Antenna::unknown>(antenna, {"ok", "short", "open", "unknown"});
 }
 
 std::string_view name_of(oncore::TimeRaim::Solution solution) {
-  switch (solution) {
-    case oncore::TimeRaim::Solution::ok: return "ok";
-    case oncore::TimeRaim::Solution::alarm: return "alarm";
-    case oncore::TimeRaim::Solution::unknown: break;
-  }
-  return "unknown";
+  return base::enum_name<oncore::TimeRaim::Solution::unknown>(solution, {"ok", "alarm", "unknown"});
 }
 
 void write_channels(FieldWriter& fields, const oncore::Position& position) {

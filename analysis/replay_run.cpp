@@ -7,19 +7,10 @@
 #include <variant>
 
 #include "analysis/port_matching.h"
+#include "record/json/json_members.h"
 #include "record/json/message_json.h"
 
 namespace navcal::analysis {
-namespace {
-
-/// The text at `key`; empty when there is none.
-std::string text_at(const nlohmann::json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-}  // namespace
-
 void ReplayRun::open(std::unique_ptr<record::Recording> recording, std::string file) {
   ports_ = std::make_unique<record::PortMatch>(recording->settings(), pipeline_.settings());
   recording_ = std::move(recording);
@@ -64,11 +55,12 @@ void ReplayRun::take(const record::Entry& entry, ReplaySink& sink) {
 void ReplayRun::take_event(const record::LoggedEvent& event, ReplaySink& sink) {
   const auto json = nlohmann::json::parse(event.json, nullptr, false);
   if (!json.is_object()) return;
-  const std::string name = text_at(json, "name");
+  const std::string name = record::text_in(json, "name");
   if (name == "daemon.start") pipeline_.begin_navigation_run();
   if (name != "battery.set") return;
   pipeline_.advance(event.time_ns, sink);
-  if (const auto charge = record::battery_event_charge(text_at(json, "message"))) pipeline_.set_battery(*charge);
+  if (const auto charge = record::battery_event_charge(record::text_in(json, "message")))
+    pipeline_.set_battery(*charge);
 }
 
 void ReplayRun::finish(ReplaySink& sink) {

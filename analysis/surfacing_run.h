@@ -38,7 +38,6 @@ class SurfacingRun final : private pipeline::Sink {
   [[nodiscard]] const config::Settings& settings() const { return settings_; }
 
  private:
-  void on_sample(const instruments::Sample& /*sample*/) override {}
   void on_navigation(const pipeline::NavigationSample& sample) override;
   void begin_file(std::int64_t time_ns);
 

@@ -5,23 +5,29 @@
 #include <cstdio>
 
 namespace navcal::base {
-namespace {
-
-/// Length of the UTF-8 character at the front; 0 for a control character and for what is none.
-std::size_t printing_length(std::string_view text) {
+std::size_t utf8_length(std::string_view text) {
   const auto byte = [text](std::size_t i) {
     return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0U;
   };
   const unsigned first = byte(0);
-  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
+  if (first < 0x80) return 1;
   const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xC0U) != 0x80) return 0;
   }
-  // U+0080 to U+009F are control characters, too, and longer forms of any are not UTF-8.
-  const bool is_control = first == 0xC2 && byte(1) < 0xA0;
+  // Longer forms of any are not UTF-8.
   const bool is_overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
-  return is_control || is_overlong ? 0 : length;
+  return is_overlong ? 0 : length;
+}
+
+namespace {
+
+/// The same; 0 for a control character, of which U+0080 to U+009F are some.
+std::size_t printing_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  if (first < 0x20 || first == 0x7F) return 0;
+  const std::size_t length = utf8_length(text);
+  return length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0 ? 0 : length;
 }
 
 }  // namespace

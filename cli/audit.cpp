@@ -67,13 +67,9 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
 }
 
 void audit(const AuditArguments& arguments) {
-  const bool json_only = arguments.json == "-";
   std::vector<std::filesystem::path> inputs(arguments.files.begin(), arguments.files.end());
   inputs.insert(inputs.end(), {arguments.vehicle, arguments.map});
-  expect_no_overwriting(inputs, {arguments.json, arguments.report});
-  for (const std::string& output : {arguments.json, arguments.report}) {
-    if (!output.empty() && output != "-") expect_folder_of(output);
-  }
+  expect_results(inputs, {arguments.json, arguments.report});
   const base::Interruptible interruptible;
   analysis::Audit found;
   for (const std::string& file : arguments.files) {
@@ -98,8 +94,7 @@ void audit(const AuditArguments& arguments) {
     if (base::Interruptible::interrupted()) break;
   }
   const std::string json = arguments.json.empty() ? std::string() : report::audit_json(found);
-  if (!json.empty() && !json_only) write_result(arguments.json, json);
-  print_answer(json_only ? json : report::audit_text(found));
+  give_answer(arguments.json, json, report::audit_text(found));
   if (!arguments.report.empty()) write_result(arguments.report, report::audit_page(found));
 }
 

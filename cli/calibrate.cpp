@@ -54,11 +54,9 @@ void write_parameters(const std::string& file, const calib::Report& report, cons
 
 void calibrate(const CalibrateCommandOptions& options) {
   const record::TimeWindow window = options.window();
-  for (const std::string& file : {options.report, options.parameters})
-    if (!file.empty()) expect_folder_of(file);
   std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
   inputs.emplace_back(options.config);
-  expect_no_overwriting(inputs, {options.report, options.parameters});
+  expect_results(inputs, {options.report, options.parameters});
   const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                : config::load(options.config);
   std::optional<analysis::CalibrateHistory> history;

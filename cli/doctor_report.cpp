@@ -5,18 +5,14 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_name.h"
 #include "cli/doctor_checks.h"
 
 namespace navcal::cli {
 namespace {
 
-const char* word_of(Finding::Severity severity) {
-  switch (severity) {
-    case Finding::Severity::good: return "ok";
-    case Finding::Severity::warning: return "warning";
-    case Finding::Severity::fault: break;
-  }
-  return "fault";
+std::string_view word_of(Finding::Severity severity) {
+  return base::enum_name<Finding::Severity::fault>(severity, {"ok", "warning", "fault"});
 }
 
 std::string number_of(std::size_t count, const char* what) {

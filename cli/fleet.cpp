@@ -68,9 +68,7 @@ void run_fleet_tasks(const std::string& folder, const std::string& tasks, bool a
 void merge_fleet(const std::string& folder, const std::string& output, const std::string& page) {
   const fleet::Plan plan = fleet::load_plan(folder);
   const fs::path file = output.empty() ? plan.folder / "results.sqlite" : fs::path(output);
-  expect_folder_of(file);
-  if (!page.empty()) expect_folder_of(page);
-  expect_no_overwriting({fleet::catalogue_of(plan.folder)}, {file, page});
+  expect_results({fleet::catalogue_of(plan.folder)}, {file, page});
   const fleet::MergeSummary summary = fleet::merge(plan, file);
   if (!page.empty()) write_result(page, fleet::merge_page(plan, fleet::ResultStore(plan.folder)));
   fmt::print("{}: {} tasks done, {} failed, {} open\n", file.string(), summary.done, summary.failed, summary.open);
@@ -84,10 +82,7 @@ struct CausesOptions {
 void tell_causes(const CausesOptions& options) {
   const base::Interruptible interruptible;
   const fleet::Plan plan = fleet::load_plan(options.plan);
-  for (const std::string& file : {options.json, options.page}) {
-    if (!file.empty() && file != "-") expect_folder_of(file);
-  }
-  expect_no_overwriting({fleet::catalogue_of(plan.folder)}, {options.json, options.page});
+  expect_results({fleet::catalogue_of(plan.folder)}, {options.json, options.page});
   const fleet::ResultStore results(plan.folder);
   fleet::MissionsRead read = fleet::read_missions(plan, results);
   if (read.missions.empty()) {
@@ -114,8 +109,8 @@ void tell_causes(const CausesOptions& options) {
   }
   const fleet::FleetStory story{missions, answer, calibrations, read.remarks};
   if (!options.page.empty()) write_result(options.page, fleet::fleet_page(story));
-  if (options.json != "-" && !options.json.empty()) write_result(options.json, fleet::fleet_json(story));
-  print_answer(options.json == "-" ? fleet::fleet_json(story) : fleet::fleet_text(story));
+  give_answer(options.json, options.json.empty() ? std::string() : fleet::fleet_json(story),
+              fleet::fleet_text(story));
 }
 
 void list_fleet(const std::string& folder, bool json) {

@@ -191,9 +191,8 @@ void write_models(const gap::Diagnosis& diagnosis, const GapCommandOptions& opti
 void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
   const auto& source = options.source;
   if (!options.report.empty()) write_result(options.report, report::gap_page(diagnosis, source));
-  if (options.json == "-") return print_answer(report::gap_json(diagnosis) + '\n');
-  if (!options.json.empty()) write_result(options.json, report::gap_json(diagnosis) + '\n');
-  print_answer(report::gap_text(diagnosis, source));
+  give_answer(options.json, options.json.empty() ? std::string() : report::gap_json(diagnosis) + '\n',
+              report::gap_text(diagnosis, source));
 }
 
 gap::Diagnosis saved_diagnosis(const std::string& file) { return report::gap_from_json(read_file(file), file); }
@@ -202,16 +201,13 @@ gap::Diagnosis saved_diagnosis(const std::string& file) { return report::gap_fro
 std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
   const auto& source = options.source;
   std::vector<std::filesystem::path> outputs{options.json, options.report, source.effects_file};
-  for (const auto& file : outputs) {
-    if (!file.empty() && file != "-") expect_folder_of(file);
-  }
   std::vector<ExportFile> exports = export_files(options.exports, options.origin());
   for (const auto& [simulator, file] : exports) outputs.push_back(file);
   std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
   inputs.insert(inputs.end(), options.nominals.begin(), options.nominals.end());
   inputs.insert(inputs.end(), source.missions.begin(), source.missions.end());
   inputs.insert(inputs.end(), {options.origin(), source.vehicle, source.config});
-  expect_no_overwriting(inputs, outputs);
+  expect_results(inputs, outputs);
   return exports;
 }
 

@@ -49,14 +49,11 @@ void expect_writable(const GapNextOptions& options) {
     throw analysis::Failure(analysis::Exit::usage,
                             options.mission + ": this mission is there already; --overwrite replaces it");
   }
-  for (const std::string& file : {options.mission, options.json, options.report}) {
-    if (!file.empty() && file != "-") expect_folder_of(file);
-  }
   const report::GapSource& asked = options.asked.source;
   std::vector<std::filesystem::path> inputs(asked.missions.begin(), asked.missions.end());
   inputs.insert(inputs.end(), asked.holdouts.begin(), asked.holdouts.end());
   inputs.insert(inputs.end(), {asked.vehicle, asked.config, options.limits});
-  expect_no_overwriting(inputs, {options.mission, options.json, options.report});
+  expect_results(inputs, {options.mission, options.json, options.report});
 }
 
 void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
@@ -64,8 +61,7 @@ void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
   write_result(options.mission, config::mission_text(next.mission, report::next_mission_head(next)));
   if (!options.report.empty()) write_result(options.report, report::next_mission_page(next, source));
   const std::string json = options.json.empty() ? "" : report::next_mission_json(next, source) + '\n';
-  if (!options.json.empty() && options.json != "-") write_result(options.json, json);
-  print_answer(options.json == "-" ? json : report::next_mission_text(next, source));
+  give_answer(options.json, json, report::next_mission_text(next, source));
 }
 
 void plan_next(const GapNextOptions& options) {

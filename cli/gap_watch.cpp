@@ -103,12 +103,6 @@ class Teller {
   int since_status_ = 0;
 };
 
-Clock::time_point end_of(const GapWatchOptions& options) {
-  if (options.seconds <= 0) return Clock::time_point::max();
-  return Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
-}
-
 std::string address_of(const GapWatchOptions& options) { return fmt::format("{}:{}", options.host, options.port); }
 
 [[noreturn]] void fail_to_connect(const GapWatchOptions& options, const WatchStream& stream) {
@@ -219,11 +213,8 @@ gap::WatchReference reference_of(const gap::ReferenceRequest& request) {
 void watch_gap(const GapWatchOptions& options) {
   const base::Interruptible interruptible;
   std::signal(SIGPIPE, SIG_IGN);
-  const auto end = end_of(options);
-  expect_no_overwriting({options.recording, options.vehicle, options.config}, {options.state, options.metrics});
-  for (const std::string& file : {options.state, options.metrics}) {
-    if (!file.empty()) expect_folder_of(file);
-  }
+  const auto end = end_after(options.seconds);
+  expect_results({options.recording, options.vehicle, options.config}, {options.state, options.metrics});
   const auto setting = setting_of(options, end);
   if (!setting) return;
 

@@ -50,16 +50,12 @@ void write_identification(const IdentifyCommandOptions& options, const identify:
   tell_remarks("navcal", found.warnings);
   write_result(options.output, config::layout_file(found.layout));
   if (!options.report.empty()) write_result(options.report, report::identify_page(found));
-  const bool json_only = options.json == "-";
-  if (!json_only && !options.json.empty()) write_result(options.json, report::identify_json(found));
-  print_answer(json_only ? report::identify_json(found) : report::identify_text(found));
+  give_answer(options.json, options.json.empty() ? std::string() : report::identify_json(found),
+              report::identify_text(found));
 }
 
 void run_identify(const IdentifyCommandOptions& options) {
-  for (const std::string& file : {options.output, options.json, options.report}) {
-    if (!file.empty() && file != "-") expect_folder_of(file);
-  }
-  expect_no_overwriting(inputs_of(options), {options.output, options.json, options.report});
+  expect_results(inputs_of(options), {options.output, options.json, options.report});
   with_exit_statuses([&] { write_identification(options, identification_of(options)); },
                      analysis::Exit::bad_input);
 }

@@ -33,26 +33,36 @@ constexpr std::chrono::seconds kControlAnswerLimit{30};
 
 }  // namespace
 
-LineSocket LineSocket::tcp(const std::string& host, const std::string& port) {
-  const std::string address = host + ":" + port;
+std::string connect_at_once(int socket, const addrinfo& address) {
+  return ::connect(socket, address.ai_addr, address.ai_addrlen) == 0 ? "" : std::strerror(errno);
+}
+
+base::Descriptor connect_tcp(const std::string& host, const std::string& port, const ConnectSocket& connect,
+                             int socket_flags) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   if (const int error = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found); error != 0)
-    refuse_connection(address, ::gai_strerror(error));
+    throw std::runtime_error(::gai_strerror(error));
   std::string problem = "no address";
-  base::Descriptor descriptor;
-  for (const addrinfo* one = found; one != nullptr && descriptor.get() < 0; one = one->ai_next) {
-    base::Descriptor candidate(::socket(one->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    if (candidate.get() >= 0 && ::connect(candidate.get(), one->ai_addr, one->ai_addrlen) == 0) {
-      descriptor = std::move(candidate);
-    } else {
-      problem = std::strerror(errno);
-    }
+  base::Descriptor connected;
+  for (const addrinfo* one = found; one != nullptr && connected.get() < 0; one = one->ai_next) {
+    base::Descriptor candidate(::socket(one->ai_family, SOCK_STREAM | SOCK_CLOEXEC | socket_flags, 0));
+    problem = candidate.get() < 0 ? std::strerror(errno) : connect(candidate.get(), *one);
+    if (problem.empty()) connected = std::move(candidate);
   }
   ::freeaddrinfo(found);
-  if (descriptor.get() < 0) refuse_connection(address, problem);
-  return {std::move(descriptor), address};
+  if (connected.get() < 0) throw std::runtime_error(problem);
+  return connected;
+}
+
+LineSocket LineSocket::tcp(const std::string& host, const std::string& port) {
+  const std::string address = host + ":" + port;
+  try {
+    return {connect_tcp(host, port), address};
+  } catch (const std::runtime_error& error) {
+    refuse_connection(address, error.what());
+  }
 }
 
 LineSocket LineSocket::unix_domain(const std::filesystem::path& path) {

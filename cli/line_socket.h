@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <netdb.h>
+
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -11,6 +14,15 @@
 #include "base/descriptor.h"
 
 namespace navcal::cli {
+
+/// Connects a socket to an address, by `connect`; returns why it failed, or nothing.
+using ConnectSocket = std::function<std::string(int socket, const addrinfo& address)>;
+[[nodiscard]] std::string connect_at_once(int socket, const addrinfo& address);
+
+/// A TCP socket with the first address of a host that can be connected. Throws std::runtime_error, which says why
+/// there is none.
+[[nodiscard]] base::Descriptor connect_tcp(const std::string& host, const std::string& port,
+                                           const ConnectSocket& connect = connect_at_once, int socket_flags = 0);
 
 /// A connected socket on which both sides speak in lines. Every function throws std::runtime_error when the socket
 /// fails or the other side closes it; the message names the address.

@@ -23,10 +23,7 @@ struct SurfacingsOptions {
 };
 
 void show_surfacings(const SurfacingsOptions& options) {
-  if (!options.page.empty()) {
-    expect_folder_of(options.page);
-    expect_no_overwriting({options.files.begin(), options.files.end()}, {options.page});
-  }
+  expect_results({options.files.begin(), options.files.end()}, {options.page});
   const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                : config::load(options.config);
   analysis::SurfacingRun run(settings);

@@ -30,10 +30,7 @@ void expect_new(const std::string& file) {
 }
 
 void expect_outputs(const NoiseCommandOptions& options) {
-  for (const std::string& file : {options.page, options.write}) {
-    if (!file.empty()) expect_folder_of(file);
-  }
-  expect_no_overwriting({options.request.file, options.config}, {options.page, options.write});
+  expect_results({options.request.file, options.config}, {options.page, options.write});
   expect_new(options.write);
 }
 

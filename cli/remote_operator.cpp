@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -17,6 +16,7 @@
 #include <utility>
 
 #include "base/interruptible.h"
+#include "cli/line_socket.h"
 #include "ports/finder.h"
 #include "ports/tty.h"
 
@@ -38,30 +38,20 @@ std::string connect_within(int fd, const addrinfo& address) {
   return error == 0 ? std::string() : std::strerror(error);
 }
 
-base::Descriptor connect_tcp(const std::string& address) {
+base::Descriptor connect_to(const std::string& address) {
   const auto colon = address.rfind(':');
   std::string host = address.substr(0, colon);
   const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
   if (host.empty() || port.empty()) throw std::runtime_error("tcp:" + address + ": tcp:HOST:PORT is expected");
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int error = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found); error != 0)
-    throw std::runtime_error(address + ": " + ::gai_strerror(error));
-  std::string problem = "no address";
-  for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
-    base::Descriptor socket(::socket(one->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (socket.get() < 0) continue;
-    problem = connect_within(socket.get(), *one);
-    if (!problem.empty()) continue;
+  try {
+    base::Descriptor socket = connect_tcp(host, port, connect_within, SOCK_NONBLOCK);
     const int on = 1;
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    ::freeaddrinfo(found);
     return socket;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(address + ": " + error.what());
   }
-  ::freeaddrinfo(found);
-  throw std::runtime_error(address + ": " + problem);
 }
 
 std::unique_ptr<ports::Line> open_tty(const std::string& path, int baud) {
@@ -97,7 +87,7 @@ link::EndOptions end_of_operator(const RemoteOperator::Options& options) {
 
 RemoteConnection::RemoteConnection(const std::string& address, int baud) {
   if (address.starts_with(kTcp)) {
-    socket_ = connect_tcp(address.substr(kTcp.size()));
+    socket_ = connect_to(address.substr(kTcp.size()));
   } else {
     tty_ = open_tty(address, baud);
   }

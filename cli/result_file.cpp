@@ -67,6 +67,13 @@ void expect_no_overwriting(const std::vector<fs::path>& inputs, const std::vecto
   }
 }
 
+void expect_results(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  expect_no_overwriting(inputs, outputs);
+  for (const fs::path& output : outputs) {
+    if (is_file_name(output)) expect_folder_of(output);
+  }
+}
+
 void expect_not_ending(const fs::path& output, std::string_view ending, std::string_view kind,
                        std::string_view hint) {
   if (output.extension() != ending) return;
@@ -97,6 +104,11 @@ void print_answer(std::string_view text) {
   analysis::Output output(STDOUT_FILENO, "standard output");
   output.append(base::printable(text, "\n"));
   output.flush();
+}
+
+void give_answer(const std::string& json_file, const std::string& json, std::string_view text) {
+  if (is_file_name(json_file)) write_result(json_file, json);
+  print_answer(json_file == "-" ? json : text);
 }
 
 void tell_remarks(std::string_view command, const std::vector<std::string>& remarks) {

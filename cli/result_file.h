@@ -35,6 +35,10 @@ void expect_folder_of(const std::filesystem::path& file);
 void expect_no_overwriting(const std::vector<std::filesystem::path>& inputs,
                            const std::vector<std::filesystem::path>& outputs);
 
+/// Both checks; of outputs, empty names and "-" are passed over.
+void expect_results(const std::vector<std::filesystem::path>& inputs,
+                    const std::vector<std::filesystem::path>& outputs);
+
 /// Throws Failure (usage) when the name of an output ends like another kind of file. `kind` says what the file
 /// will be, with its usual ending: "a capture (.cap)"; `hint` says how to get the other kind.
 void expect_not_ending(const std::filesystem::path& output, std::string_view ending, std::string_view kind,
@@ -49,6 +53,9 @@ void write_new(const std::filesystem::path& file, const std::string& text);
 
 /// Text on standard output, printable. Throws Failure when it cannot be written.
 void print_answer(std::string_view text);
+
+/// An answer of which --json may name a file, or standard output (-), which then gets JSON in place of the text.
+void give_answer(const std::string& json_file, const std::string& json, std::string_view text);
 
 /// Lines on standard error, each with the name of the command before it.
 void tell_remarks(std::string_view command, const std::vector<std::string>& remarks);

@@ -21,13 +21,10 @@ void expect_thesis_outputs(const ThesisCommandOptions& options) {
   if (options.page.empty() && options.json.empty())
     throw analysis::Failure(analysis::Exit::usage,
                             "thesis: nothing to write; give --report FILE.html or --json FILE");
-  for (const std::string& file : {options.page, options.json}) {
-    if (!file.empty() && file != "-") expect_folder_of(file);
-  }
   std::vector<std::filesystem::path> inputs;
   for (int number = 1; number <= analysis::kThesisPaths; ++number)
     inputs.push_back(options.request.folder / ("path" + std::to_string(number) + ".csv"));
-  expect_no_overwriting(inputs, {options.page, options.json});
+  expect_results(inputs, {options.page, options.json});
 }
 
 void write_thesis_json(const std::string& file, const std::string& json) {

@@ -124,11 +124,7 @@ class RunAnswers {
 };
 
 void answer_runs(const ValidateRunsArguments& arguments) {
-  const bool to_output = arguments.json == "-";
-  if (!to_output) expect_folder_of(arguments.json);
-  if (!arguments.sessions.empty()) expect_folder_of(arguments.sessions);
-  expect_no_overwriting({arguments.nominal, arguments.runs, arguments.pools},
-                        {arguments.json, arguments.sessions});
+  expect_results({arguments.nominal, arguments.runs, arguments.pools}, {arguments.json, arguments.sessions});
   const auto* const removed = removed_effect(arguments.removed);
   const RunPools pools = arguments.pools.empty() ? RunPools{} : read_run_pools(arguments.pools);
   const runs::NominalVehicle vehicle = runs::identify(analysis::read_run_folder(arguments.nominal));
@@ -137,9 +133,7 @@ void answer_runs(const ValidateRunsArguments& arguments) {
   RunAnswers answers(vehicle, removed);
   answers.add_runs(analysis::read_run_folder(arguments.runs), arguments.runs);
   answers.add_pools(pools, arguments.pools);
-  if (to_output) return print_answer(answers.lines());
-  write_result(arguments.json, answers.lines());
-  print_answer(answers.summary());
+  give_answer(arguments.json, answers.lines(), answers.summary());
 }
 
 void validate_runs(const ValidateRunsArguments& arguments) {

@@ -80,26 +80,21 @@ identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
 }
 
 void predict_vehicle(const VehiclePredictArguments& arguments) {
-  const bool json_only = arguments.json == "-";
   std::vector<std::filesystem::path> inputs(arguments.files.begin(), arguments.files.end());
   inputs.insert(inputs.end(), arguments.fit.begin(), arguments.fit.end());
   inputs.insert(inputs.end(), {arguments.layout, arguments.config});
-  expect_no_overwriting(inputs, {arguments.json});
-  if (!arguments.json.empty() && !json_only) expect_folder_of(arguments.json);
+  expect_results(inputs, {arguments.json});
   with_exit_statuses(
       [&] {
         const identify::Prediction found = prediction_of(arguments);
-        if (!arguments.json.empty() && !json_only)
-          write_result(arguments.json, report::vehicle_prediction_json(found));
-        print_answer(json_only ? report::vehicle_prediction_json(found) : report::vehicle_prediction_text(found));
+        give_answer(arguments.json, report::vehicle_prediction_json(found),
+                    report::vehicle_prediction_text(found));
       },
       analysis::Exit::bad_input);
 }
 
 void convert_vehicle(const VehicleConvertArguments& arguments) {
-  expect_no_overwriting({arguments.vehicle}, {arguments.output});
-  const bool to_terminal = arguments.output.empty() || arguments.output == "-";
-  if (!to_terminal) expect_folder_of(arguments.output);
+  expect_results({arguments.vehicle}, {arguments.output});
   config::VehicleSettings vehicle;
   try {
     vehicle = config::load_vehicle(arguments.vehicle);
@@ -107,7 +102,7 @@ void convert_vehicle(const VehicleConvertArguments& arguments) {
     throw analysis::Failure(analysis::Exit::bad_input, error.what());
   }
   const std::string toml = config::layout_file(sim::layout_of(vehicle));
-  if (to_terminal) {
+  if (arguments.output.empty() || arguments.output == "-") {
     std::fputs(toml.c_str(), stdout);
   } else {
     write_result(arguments.output, toml);

@@ -51,12 +51,6 @@ class Screen {
   }
 };
 
-Clock::time_point end_of(const WatchCommandOptions& options) {
-  if (options.seconds <= 0) return Clock::time_point::max();
-  return Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
-}
-
 std::string title(const WatchCommandOptions& options, const WatchStream& stream) {
   std::string text = fmt::format("navcald at {} port {}", options.host, options.port);
   if (!stream.connected()) text += fmt::format(": not connected ({}), trying again", stream.problem());
@@ -101,7 +95,7 @@ void watch(const WatchCommandOptions& options) {
   // A reader that has gone is seen by fflush.
   std::signal(SIGPIPE, SIG_IGN);
   WatchStream stream(options.host, std::to_string(options.port));
-  const auto end = end_of(options);
+  const auto end = end_after(options.seconds);
   if (options.json) {
     pass_on(stream, end);
   } else {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/watch_stream.h"
 
-#include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
+
+#include "cli/line_socket.h"
 
 namespace navcal::cli {
 namespace {
@@ -30,44 +31,26 @@ int milliseconds_until(Clock::time_point until) {
 WatchStream::WatchStream(std::string host, std::string port, std::string_view request)
     : host_(std::move(host)), port_(std::move(port)), request_(request) {}
 
-WatchStream::~WatchStream() {
-  if (socket_ >= 0) ::close(socket_);
-}
-
 void WatchStream::disconnect(std::string problem) {
-  if (socket_ >= 0) ::close(socket_);
-  socket_ = -1;
+  socket_ = {};
   bytes_.clear();
   problem_ = std::move(problem);
   next_attempt_ = Clock::now() + kRetry;
 }
 
 bool WatchStream::connect() {
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int error = getaddrinfo(host_.c_str(), port_.c_str(), &hints, &found); error != 0) {
-    disconnect(gai_strerror(error));
-    return false;
+  const auto connect_and_ask = [this](int candidate, const addrinfo& address) {
+    if (std::string problem = connect_at_once(candidate, address); !problem.empty()) return problem;
+    const ssize_t sent = ::send(candidate, request_.data(), request_.size(), MSG_NOSIGNAL);
+    return std::string(sent == static_cast<ssize_t>(request_.size()) ? "" : std::strerror(errno));
+  };
+  try {
+    socket_ = connect_tcp(host_, port_, connect_and_ask);
+    was_connected_ = true;
+  } catch (const std::runtime_error& error) {
+    disconnect(error.what());
   }
-  std::string problem = "no address";
-  for (const addrinfo* address = found; address != nullptr && socket_ < 0; address = address->ai_next) {
-    const int candidate = ::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (candidate < 0) continue;
-    const bool ready =
-        ::connect(candidate, address->ai_addr, address->ai_addrlen) == 0 &&
-        ::send(candidate, request_.data(), request_.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(request_.size());
-    if (ready) {
-      socket_ = candidate;
-      was_connected_ = true;
-    } else {
-      problem = std::strerror(errno);
-      ::close(candidate);
-    }
-  }
-  freeaddrinfo(found);
-  if (socket_ < 0) disconnect(problem);
-  return socket_ >= 0;
+  return connected();
 }
 
 std::optional<std::string> WatchStream::take_line() {
@@ -81,7 +64,7 @@ std::optional<std::string> WatchStream::take_line() {
 std::optional<std::string> WatchStream::next(Clock::time_point until) {
   for (;;) {
     if (auto line = take_line()) return line;
-    if (socket_ < 0) {
+    if (!connected()) {
       if (Clock::now() < next_attempt_) {
         if (::poll(nullptr, 0, milliseconds_until(std::min(until, next_attempt_))) < 0) return std::nullopt;
         if (Clock::now() >= until) return std::nullopt;
@@ -89,10 +72,10 @@ std::optional<std::string> WatchStream::next(Clock::time_point until) {
       }
       if (!connect()) continue;
     }
-    pollfd readable{socket_, POLLIN, 0};
+    pollfd readable{socket_.get(), POLLIN, 0};
     if (::poll(&readable, 1, milliseconds_until(until)) <= 0) return std::nullopt;
     std::array<char, 16384> chunk{};
-    const ssize_t n = ::recv(socket_, chunk.data(), chunk.size(), 0);
+    const ssize_t n = ::recv(socket_.get(), chunk.data(), chunk.size(), 0);
     if (n < 0 && errno == EINTR) return std::nullopt;
     if (n <= 0) {
       disconnect(n == 0 ? "the daemon closed the connection" : std::strerror(errno));

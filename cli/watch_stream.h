@@ -6,24 +6,30 @@
 #include <string>
 #include <string_view>
 
+#include "base/descriptor.h"
+
 namespace navcal::cli {
 
 /// Request for the JSON reports that a daemon sends to everybody.
 inline constexpr std::string_view kWatchAll = "?WATCH={\"enable\":true,\"json\":true};\n";
+
+/// Now and `seconds`; without any, never.
+[[nodiscard]] inline std::chrono::steady_clock::time_point end_after(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  if (seconds <= 0) return Clock::time_point::max();
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 /// The status stream of a daemon, line by line; connects again by itself when the daemon has gone away.
 class WatchStream {
  public:
   /// `request` is sent at each connection.
   WatchStream(std::string host, std::string port, std::string_view request = kWatchAll);
-  ~WatchStream();
-  WatchStream(const WatchStream&) = delete;
-  WatchStream& operator=(const WatchStream&) = delete;
 
   /// The next line, without its newline; nullopt when `until` has come or a signal came in. Waits for both bytes
   /// and the daemon's return.
   std::optional<std::string> next(std::chrono::steady_clock::time_point until);
-  [[nodiscard]] bool connected() const { return socket_ >= 0; }
+  [[nodiscard]] bool connected() const { return static_cast<bool>(socket_); }
   /// True when there was a connection at any time.
   [[nodiscard]] bool was_connected() const { return was_connected_; }
   /// Why it is not connected.
@@ -35,7 +41,7 @@ class WatchStream {
   void disconnect(std::string problem);
 
   std::string host_, port_, request_;
-  int socket_ = -1;
+  base::Descriptor socket_;
   bool was_connected_ = false;
   std::string bytes_;
   std::string problem_;

@@ -6,22 +6,15 @@
 #include <cmath>
 
 #include "base/printable.h"
+#include "record/json/json_members.h"
 
 namespace navcal::cli {
-namespace {
-
-using Json = nlohmann::json;
-
-}  // namespace
-
-std::string text(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? base::printable(found->get<std::string>()) : std::string();
+std::string text(const nlohmann::json& object, const char* key) {
+  return base::printable(record::text_in(object, key));
 }
 
-double number(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : NAN;
+double number(const nlohmann::json& object, const char* key) {
+  return record::number_in(object, key).value_or(NAN);
 }
 
 std::string shown(double value, int decimals) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/enum_name.h"
+
 namespace navcal::daemon {
 namespace {
 
@@ -25,19 +27,9 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
 }  // namespace
 
 std::string_view name_of(Alarm alarm) {
-  switch (alarm) {
-    case Alarm::leak_forward: return "leak_forward";
-    case Alarm::leak_aft: return "leak_aft";
-    case Alarm::over_range: return "over_range";
-    case Alarm::low_supply: return "low_supply";
-    case Alarm::battery_low: return "battery_low";
-    case Alarm::floor_near: return "floor_near";
-    case Alarm::command_not_echoed: return "command_not_echoed";
-    case Alarm::log_failing: return "log_failing";
-    case Alarm::orders_refused: return "orders_refused";
-    case Alarm::link_dead: break;
-  }
-  return "link_dead";
+  return base::enum_name<Alarm::orders_refused>(
+      alarm, {"leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed", "battery_low",
+              "floor_near", "link_dead", "log_failing", "orders_refused"});
 }
 
 const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const instruments::ImuSample& imu,

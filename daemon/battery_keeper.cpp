@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "record/json/json_members.h"
 #include "record/log/checked_file.h"
 
 namespace navcal::daemon {
@@ -23,10 +24,7 @@ std::optional<pipeline::BatteryCharge> BatteryKeeper::load() {
   const auto read = record::read_checked(file_.path());
   if (read.state == record::CheckedContent::State::absent) return std::nullopt;
   const auto json = nlohmann::json::parse(read.content, nullptr, false);
-  const auto number = [&](const char* key) {
-    const auto found = json.is_object() ? json.find(key) : json.end();
-    return json.is_object() && found != json.end() && found->is_number() ? found->get<double>() : std::nan("");
-  };
+  const auto number = [&](const char* key) { return record::number_in(json, key).value_or(std::nan("")); };
   const pipeline::BatteryCharge charge{number("charge_Ah"),
                                        std::hypot(number("charge_std_Ah"), kRestart * settings_.capacity_Ah)};
   const bool fits = number("capacity_Ah") == settings_.capacity_Ah;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/enum_name.h"
 #include "record/log/reused_buffer.h"
 
 namespace navcal::daemon {
@@ -29,13 +30,7 @@ DiskState::State state_after(const std::error_code& error) {
 }  // namespace
 
 std::string_view name_of(DiskState::State state) {
-  switch (state) {
-    case DiskState::State::writing: return "writing";
-    case DiskState::State::full: return "full";
-    case DiskState::State::stopped: return "stopped";
-    case DiskState::State::failing: break;
-  }
-  return "failing";
+  return base::enum_name<DiskState::State::stopped>(state, {"writing", "full", "failing", "stopped"});
 }
 
 DiskThread::DiskThread(std::function<record::LogFolder()> take_folder, const Options& options)

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/enum_name.h"
+
 namespace navcal::daemon {
 namespace {
 
@@ -16,15 +18,8 @@ constexpr std::uint64_t kUsualUnused = 10;  // one frame of so many
 }  // namespace
 
 std::string_view name_of(PortSession::State state) {
-  switch (state) {
-    case PortSession::State::away: return "away";
-    case PortSession::State::silent: return "silent";
-    case PortSession::State::no_frames: return "no_frames";
-    case PortSession::State::noisy: return "noisy";
-    case PortSession::State::off: return "off";
-    case PortSession::State::running: break;
-  }
-  return "running";
+  return base::enum_name<PortSession::State::off>(state,
+                                                  {"away", "silent", "no_frames", "noisy", "running", "off"});
 }
 
 PortSession::PortSession(const boost::asio::any_io_executor& executor, std::uint16_t port,

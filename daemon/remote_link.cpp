@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/enum_name.h"
 #include "daemon/json_text.h"
 #include "daemon/start_error.h"
 
@@ -76,12 +77,7 @@ config::PortSettings line_settings(const config::RemoteSettings& settings) {
 }
 
 std::string_view name_of(link::Vehicle::Peer peer) {
-  switch (peer) {
-    case link::Vehicle::Peer::alive: return "alive";
-    case link::Vehicle::Peer::dead: return "dead";
-    case link::Vehicle::Peer::none: break;
-  }
-  return "none";
+  return base::enum_name<link::Vehicle::Peer::dead>(peer, {"none", "alive", "dead"});
 }
 
 }  // namespace

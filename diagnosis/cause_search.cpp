@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/statistics.h"
 #include "diagnosis/limits.h"
 
 namespace navcal::diagnosis {
@@ -40,13 +41,6 @@ Members members_of(const CauseSet& set, const CauseLibrary& library, double stre
        {std::pair{&mean, &members.mean}, {&std, &members.std}, {&low, &members.low}, {&high, &members.high}})
     *to = Eigen::Map<const Eigen::VectorXd>(from->data(), std::ssize(*from));
   return members;
-}
-
-double log_mean_exp(const std::vector<double>& values) {
-  const double most = *std::max_element(values.begin(), values.end());
-  double sum = 0;
-  for (const double value : values) sum += std::exp(value - most);
-  return most + std::log(sum / static_cast<double>(values.size()));
 }
 
 /// log Phi(z)
@@ -177,7 +171,7 @@ double SetEvidence::gain(const CauseSet& set) const {
   if (set.empty()) return 0;
   std::vector<double> gains;
   for (const double strength : kMemberStrengths) gains.push_back(gain(set, strength));
-  return log_mean_exp(gains) + log_prior(set.size(), library_.causes.size());
+  return base::log_mean_exp(gains) + log_prior(set.size(), library_.causes.size());
 }
 
 std::optional<RecordingFit> settled(const FittedRecording& recording, const JointPrior& prior,

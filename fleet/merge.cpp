@@ -8,6 +8,7 @@
 
 #include "analysis/failure.h"
 #include "fleet/whole_writing.h"
+#include "record/json/json_members.h"
 
 namespace navcal::fleet {
 namespace {
@@ -49,23 +50,7 @@ CREATE TABLE calibration_values(
 
 /// Binds a number, or NULL where there is none.
 using Number = std::optional<double>;
-
-Number number_at(const MergedJson& object, const char* key) {
-  if (!object.is_object()) return {};
-  const auto at = object.find(key);
-  return at != object.end() && at->is_number() ? Number(at->get<double>()) : Number();
-}
-
-std::string text_at(const MergedJson& object, const char* key) {
-  const auto at = object.find(key);
-  return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
-
-MergedJson part_at(const MergedJson& object, const char* key) {
-  if (!object.is_object()) return {};
-  const auto at = object.find(key);
-  return at == object.end() ? MergedJson() : *at;
-}
+using record::number_in, record::text_in, record::member_of;
 
 std::optional<std::string> unless_empty(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
@@ -127,34 +112,34 @@ void MergeTables::add_task(const Task& task, TaskState state, const std::string&
 }
 
 void MergeTables::add_gap(int task, const MergedJson& answer) {
-  const MergedJson gap = part_at(answer, "gap"), interval = part_at(gap, "closed_ci"),
-                   heading = part_at(gap, "heading_error_rad"),
-                   reckoning = part_at(gap, "dead_reckoning_m_per_100m");
+  const MergedJson gap = member_of(answer, "gap"), interval = member_of(gap, "closed_ci"),
+                   heading = member_of(gap, "heading_error_rad"),
+                   reckoning = member_of(gap, "dead_reckoning_m_per_100m");
   const bool has_interval = interval.is_array() && interval.size() == 2;
-  gap_.run(task, text_at(answer, "verdict"), text_at(answer, "sentence"), number_at(gap, "before"),
-           number_at(gap, "after"), number_at(gap, "floor"), number_at(gap, "closed"),
+  gap_.run(task, text_in(answer, "verdict"), text_in(answer, "sentence"), number_in(gap, "before"),
+           number_in(gap, "after"), number_in(gap, "floor"), number_in(gap, "closed"),
            has_interval ? Number(interval[0].get<double>()) : Number(),
-           has_interval ? Number(interval[1].get<double>()) : Number(), number_at(heading, "before"),
-           number_at(heading, "after"), number_at(reckoning, "before"), number_at(reckoning, "after"),
-           number_at(answer, "duration_s"));
+           has_interval ? Number(interval[1].get<double>()) : Number(), number_in(heading, "before"),
+           number_in(heading, "after"), number_in(reckoning, "before"), number_in(reckoning, "after"),
+           number_in(answer, "duration_s"));
   int rank = 0;
-  for (const MergedJson& where : part_at(answer, "where")) {
-    where_.run(task, ++rank, text_at(where, "channel"), text_at(where, "regime"), number_at(where, "gap"),
-               number_at(where, "floor"), text_at(where, "unit"), number_at(where, "p_value"));
+  for (const MergedJson& where : member_of(answer, "where")) {
+    where_.run(task, ++rank, text_in(where, "channel"), text_in(where, "regime"), number_in(where, "gap"),
+               number_in(where, "floor"), text_in(where, "unit"), number_in(where, "p_value"));
   }
-  add_effects(task, "effect", part_at(answer, "effects"));
-  add_effects(task, "candidate", part_at(answer, "candidates"));
+  add_effects(task, "effect", member_of(answer, "effects"));
+  add_effects(task, "candidate", member_of(answer, "candidates"));
 }
 
 void MergeTables::add_effects(int task, const char* role, const MergedJson& effects) {
   int rank = 0;
   for (const MergedJson& effect : effects) {
-    const std::string name = text_at(effect, "name");
-    effect_.run(task, role, ++rank, name, number_at(effect, "probability"));
-    const MergedJson values = part_at(effect, "parameters"), errors = part_at(effect, "std_errors");
+    const std::string name = text_in(effect, "name");
+    effect_.run(task, role, ++rank, name, number_in(effect, "probability"));
+    const MergedJson values = member_of(effect, "parameters"), errors = member_of(effect, "std_errors");
     for (const auto& [parameter, value] : values.items()) {
-      parameter_.run(task, role, name, parameter, number_at(values, parameter.c_str()),
-                     number_at(errors, parameter.c_str()));
+      parameter_.run(task, role, name, parameter, number_in(values, parameter.c_str()),
+                     number_in(errors, parameter.c_str()));
     }
   }
 }
@@ -162,9 +147,9 @@ void MergeTables::add_effects(int task, const char* role, const MergedJson& effe
 void MergeTables::add_calibration(int task, const MergedJson& answer) {
   for (const auto& [calibrator, values] : answer.items()) {
     if (!values.is_object()) continue;
-    const MergedJson accepted = part_at(values, "accepted");
+    const MergedJson accepted = member_of(values, "accepted");
     calibrator_.run(task, calibrator, accepted.is_boolean() ? Number(accepted.get<bool>() ? 1 : 0) : Number(),
-                    text_at(values, "judgement"), text_at(values, "reason"));
+                    text_in(values, "judgement"), text_in(values, "reason"));
     add_quantities(task, calibrator, values);
   }
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "base/enum_name.h"
 #include "fleet/whole_writing.h"
 
 namespace navcal::fleet {
@@ -19,11 +20,7 @@ constexpr std::size_t kFolderDigits = 2;
 }  // namespace
 
 std::string_view name_of(TaskState state) {
-  switch (state) {
-    case TaskState::done: return "done";
-    case TaskState::failed: return "failed";
-    default: return "open";
-  }
+  return base::enum_name<TaskState::failed>(state, {"open", "done", "failed"});
 }
 
 ResultStore::ResultStore(const fs::path& plan) : folder_(plan / "results"), banks_(plan / "banks") {}

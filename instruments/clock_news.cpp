@@ -5,17 +5,13 @@
 
 #include <cmath>
 
+#include "base/enum_name.h"
+
 namespace navcal::instruments {
 
 std::string_view name_of(ClockNews news) {
-  switch (news) {
-    case ClockNews::rate:
-    case ClockNews::rate_right: return "clock.rate";
-    case ClockNews::irregular: return "clock.irregular";
-    case ClockNews::bursts: return "clock.bursts";
-    case ClockNews::regular: return "clock.regular";
-  }
-  return "clock.rate";
+  return base::enum_name<ClockNews::regular>(
+      news, {"clock.rate", "clock.rate", "clock.irregular", "clock.bursts", "clock.regular"});
 }
 
 std::string words_for(ClockNews news, double nominal_rate_Hz, const ClockState& state) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/enum_name.h"
+
 namespace navcal::instruments {
 namespace {
 
@@ -48,15 +50,8 @@ std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
 }  // namespace
 
 std::string_view name_of(Timing timing) {
-  switch (timing) {
-    case Timing::arrival: return "arrival";
-    case Timing::searching: return "searching";
-    case Timing::periodic: return "periodic";
-    case Timing::bursts: return "bursts";
-    case Timing::irregular: return "irregular";
-    case Timing::device: return "device";
-  }
-  return "arrival";
+  return base::enum_name<Timing::device>(timing,
+                                         {"arrival", "searching", "periodic", "bursts", "irregular", "device"});
 }
 
 FrameClock::FrameClock(double rate_Hz, double latency_std_s)

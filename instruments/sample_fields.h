@@ -10,15 +10,20 @@
 
 #include "instruments/samples.h"
 #include "protocols/described/meaning.h"
+#include "protocols/gps_fix.h"
 #include "protocols/samples_line.h"
 
-/// The only table of the members of samples (docs/samples.md). JSON, log, export, injected samples, described
-/// devices, library and Python follow it.
-namespace navcal::instruments {
+namespace navcal::api {
 
 [[nodiscard]] constexpr std::string_view name_of(VelocityFrame frame) {
   return frame == VelocityFrame::body ? "body" : "earth";
 }
+
+}  // namespace navcal::api
+
+/// The only table of the members of samples (docs/samples.md). JSON, log, export, injected samples, described
+/// devices, library and Python follow it.
+namespace navcal::instruments {
 
 /// Part of a member in its sample.
 enum class Role : std::uint8_t {

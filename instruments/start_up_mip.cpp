@@ -12,6 +12,7 @@
 
 #include "base/durations.h"
 #include "instruments/devices.h"
+#include "protocols/decimal.h"
 #include "protocols/mip.h"
 #include "protocols/mip_commands.h"
 
@@ -50,12 +51,10 @@ const std::array<FieldList, 3> kFilterLists{FieldList(kFilterAll), FieldList(kFi
                                             FieldList(kFilterLeast)};
 
 std::string list_text(FieldList list) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string text;
   for (const std::uint8_t one : list) {
     if (!text.empty()) text += ' ';
-    text += kDigits[one >> 4];
-    text += kDigits[one & 0x0F];
+    protocols::append_hex(text, one, 2);
   }
   return text;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -42,14 +41,8 @@ inline constexpr std::size_t kCrcLength = 4;
 inline constexpr std::size_t kMaxFrame = kHeaderLength + kMaxPayload + kTagLength + kCrcLength;
 
 /// A sync pair may occur inside a frame, so a frame is one only by its CRC-32.
-struct Scanner {
+struct Scanner : protocols::StartsWith<kSync0> {
   static constexpr std::size_t kMaxFrameLength = kMaxFrame;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    if (first == last) return last;
-    const void* found = std::memchr(first, kSync0, static_cast<std::size_t>(last - first));
-    return found != nullptr ? static_cast<const std::uint8_t*>(found) : last;
-  }
   static protocols::Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = protocols::StreamParser<Scanner>;

@@ -63,6 +63,14 @@ bool Navigator::is_new(Last& last, std::int64_t time_ns, bool plausible) {
   return true;
 }
 
+std::optional<Pose> Navigator::pose_for(Last& last, std::int64_t time_ns, bool plausible) {
+  if (!is_new(last, time_ns, plausible)) return std::nullopt;
+  drive(time_ns);
+  const auto pose = past_.at(time_ns);
+  if (!pose) ++left_out_;
+  return pose;
+}
+
 bool Navigator::rates_come(std::int64_t time_ns) const {
   return rates_ns_ && base::seconds(time_ns - *rates_ns_) <= kRatePause_s;
 }
@@ -85,13 +93,8 @@ void Navigator::take(const RateReading& reading) {
 }
 
 void Navigator::take(const CompassReading& reading) {
-  if (!is_new(compass_ns_, reading.time_ns, plausible(reading))) return;
-  drive(reading.time_ns);
-  const auto pose = past_.at(reading.time_ns);
-  if (!pose) {
-    ++left_out_;
-    return;
-  }
+  const auto pose = pose_for(compass_ns_, reading.time_ns, plausible(reading));
+  if (!pose) return;
   if (reading.roll_rad && reading.pitch_rad) {
     // The fluid shows the tilt of some time ago.
     const double lag_s = reading.tilt_lags ? options_.attitude.tilt_lag_s : 0;
@@ -120,13 +123,8 @@ void Navigator::turn_north(double change_rad) {
 }
 
 void Navigator::take(const TiltReading& reading) {
-  if (!is_new(tilt_reading_ns_, reading.time_ns, plausible(reading))) return;
-  drive(reading.time_ns);
-  const auto pose = past_.at(reading.time_ns);
-  if (!pose) {
-    ++left_out_;
-    return;
-  }
+  const auto pose = pose_for(tilt_reading_ns_, reading.time_ns, plausible(reading));
+  if (!pose) return;
   const double since_s = tilt_ns_ ? base::seconds(reading.time_ns - *tilt_ns_) : 0;
   const Vector2d turned = attitude_.correct_tilt(base::wrapped(reading.roll_rad - pose->roll_rad),
                                                  reading.pitch_rad - pose->pitch_rad, since_s);
@@ -141,13 +139,8 @@ void Navigator::take(const ShaftReading& reading) {
 }
 
 void Navigator::take(const FixReading& reading) {
-  if (!is_new(fix_ns_, reading.time_ns, plausible(reading))) return;
-  drive(reading.time_ns);
-  const auto pose = past_.at(reading.time_ns);
-  if (!pose) {
-    ++left_out_;
-    return;
-  }
+  const auto pose = pose_for(fix_ns_, reading.time_ns, plausible(reading));
+  if (!pose) return;
   if (const auto outage = reckoning_.fix(reading, pose->reckoned_m, base::seconds(*time_ns_ - reading.time_ns)))
     outage_ = outage;
   // The way of the last second must have been one through the water.

@@ -66,6 +66,8 @@ class Navigator {
   using Last = std::optional<std::int64_t>;
 
   [[nodiscard]] bool is_new(Last& last, std::int64_t time_ns, bool plausible);
+  /// The pose that a new reading is compared with; a reading without one is left out.
+  [[nodiscard]] std::optional<Pose> pose_for(Last& last, std::int64_t time_ns, bool plausible);
   [[nodiscard]] bool rates_come(std::int64_t time_ns) const;
   /// While nothing else does, this reading moves the time on.
   void drive(std::int64_t time_ns);

@@ -36,13 +36,8 @@ Vector3d in_world(const Vector3d& velocity_m_s, VelocityFrame frame, const Pose&
 }  // namespace
 
 void Navigator::take(const GroundVelocityReading& reading) {
-  if (!is_new(bottom_ns_, reading.time_ns, is_plausible_velocity(reading))) return;
-  drive(reading.time_ns);
-  const auto pose = past_.at(reading.time_ns);
-  if (!pose) {
-    ++left_out_;
-    return;
-  }
+  const auto pose = pose_for(bottom_ns_, reading.time_ns, is_plausible_velocity(reading));
+  if (!pose) return;
   if (!hold(bottom_, reading, *pose, SpeedSource::bottom) || !direction_known(bottom_)) return;
   const auto water_m_s = water_velocity_m_s(*pose);
   if (!water_m_s) return;
@@ -54,13 +49,8 @@ void Navigator::take(const GroundVelocityReading& reading) {
 }
 
 void Navigator::take(const WaterVelocityReading& reading) {
-  if (!is_new(water_ns_, reading.time_ns, is_plausible_velocity(reading))) return;
-  drive(reading.time_ns);
-  const auto pose = past_.at(reading.time_ns);
-  if (!pose) {
-    ++left_out_;
-    return;
-  }
+  const auto pose = pose_for(water_ns_, reading.time_ns, is_plausible_velocity(reading));
+  if (!pose) return;
   hold(water_, reading, *pose, SpeedSource::water);
 }
 

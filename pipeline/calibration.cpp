@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/calibration.h"
 
+#include "base/enum_name.h"
+
 namespace navcal::pipeline {
 
 std::string_view name_of(CalibrationChange::Cause cause) {
-  switch (cause) {
-    case CalibrationChange::Cause::begin: return "begin";
-    case CalibrationChange::Cause::automatic: return "automatic";
-    case CalibrationChange::Cause::accept: return "accept";
-    case CalibrationChange::Cause::force: return "force";
-    case CalibrationChange::Cause::roll_back: return "rollback";
-    case CalibrationChange::Cause::start: break;
-  }
-  return "start";
+  return base::enum_name<CalibrationChange::Cause::start>(
+      cause, {"begin", "automatic", "accept", "force", "rollback", "start"});
 }
 
 }  // namespace navcal::pipeline

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/angles.h"
+#include "base/enum_name.h"
 #include "base/world_magnetic_model.h"
 #include "pipeline/nav_reading.h"
 
@@ -32,12 +33,7 @@ EarthField::EarthField(const config::EnvironmentSettings& settings)
 }
 
 std::string_view name_of(Source source) {
-  switch (source) {
-    case Source::configuration: return "configuration";
-    case Source::model: return "model";
-    case Source::none: break;
-  }
-  return "none";
+  return base::enum_name<Source::model>(source, {"none", "configuration", "model"});
 }
 
 std::string words_for(const EarthField& field) {

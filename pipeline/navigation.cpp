@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "base/enum_name.h"
+
 namespace navcal::pipeline {
 namespace {
 
@@ -12,22 +14,11 @@ constexpr double kLeastDistance_m = 10;
 }  // namespace
 
 std::string_view name_of(PositionSource source) {
-  switch (source) {
-    case PositionSource::fixes: return "fixes";
-    case PositionSource::reckoned: return "reckoned";
-    case PositionSource::none: break;
-  }
-  return "none";
+  return base::enum_name<PositionSource::reckoned>(source, {"none", "fixes", "reckoned"});
 }
 
 std::string_view name_of(nav::SpeedSource source) {
-  switch (source) {
-    case nav::SpeedSource::shaft: return "shaft";
-    case nav::SpeedSource::water: return "water";
-    case nav::SpeedSource::bottom: return "dvl";
-    case nav::SpeedSource::none: break;
-  }
-  return {};
+  return base::enum_name<nav::SpeedSource::bottom>(source, {"", "shaft", "water", "dvl"});
 }
 
 std::string words_for_outage(const NavigationSample& sample) {

@@ -46,7 +46,7 @@ struct StreamEvent {
 class Sink {
  public:
   virtual ~Sink() = default;
-  virtual void on_sample(const instruments::Sample& sample) = 0;
+  virtual void on_sample(const instruments::Sample& /*sample*/) {}
   /// Every intact frame, before the samples made of it (dialogues, counters).
   virtual void on_frame(std::uint16_t /*port*/, const protocols::Frame& /*frame*/, std::int64_t /*arrival_ns*/) {}
   /// Rate or rhythm of a port's frames are not as configured, or are so again.

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/utc_mapping.h"
 
+#include "base/enum_name.h"
+
 namespace navcal::pipeline {
 
 std::string_view name_of(UtcMapping::Source source) {
-  switch (source) {
-    case UtcMapping::Source::none: return "none";
-    case UtcMapping::Source::file: return "file";
-    case UtcMapping::Source::system: return "system";
-    case UtcMapping::Source::system_synchronised: return "system-synchronised";
-    case UtcMapping::Source::gps: return "gps";
-  }
-  return "none";
+  return base::enum_name<UtcMapping::Source::gps>(source,
+                                                  {"none", "file", "system", "system-synchronised", "gps"});
 }
 
 }  // namespace navcal::pipeline

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <navcal/samples.h>
+
 #include <string_view>
 
-namespace navcal::protocols {
-
-/// Kind of a receiver's position.
-enum class Fix : std::uint8_t {
-  none,
-  fix_2d,  ///< height held
-  fix_3d,
-  propagated,    ///< carried on without satellites
-  hold,          ///< position hold: a known place is held to find the time; speed, heading and DOP are void
-  acquiring,     ///< looking for satellites
-  bad_geometry,  ///< satellites stand too badly for a position
-};
+namespace navcal::api {
 
 /// "none", "2d", "3d", "propagated", "hold", "acquiring", "bad_geometry" (docs/cli.md).
 [[nodiscard]] constexpr std::string_view name_of(Fix fix) {
@@ -30,5 +20,11 @@ enum class Fix : std::uint8_t {
   }
   return "none";
 }
+
+}  // namespace navcal::api
+
+namespace navcal::protocols {
+
+using api::Fix;
 
 }  // namespace navcal::protocols

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 
 #include "protocols/frame.h"
@@ -18,14 +17,8 @@ inline constexpr std::uint8_t kSync1 = 0x5A;
 inline constexpr std::size_t kFrameLength = 22;
 
 /// A sync pair may occur inside a frame, so a frame is one only by its CRC.
-struct Scanner {
+struct Scanner : StartsWith<kSync0> {
   static constexpr std::size_t kMaxFrameLength = kFrameLength;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    if (first == last || *first == kSync0) return first;  // frames mostly follow each other: spare the call
-    const void* found = std::memchr(first, kSync0, static_cast<std::size_t>(last - first));
-    return found != nullptr ? static_cast<const std::uint8_t*>(found) : last;
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

@@ -53,11 +53,8 @@ struct Found {
 
 /// Names of frames are those of their messages, cut at sixteen characters. A frame of an unknown message cannot be
 /// checked; of version 1 it is none.
-struct Scanner {
+struct Scanner : StartsWith<0xFD, 0xFE> {
   static constexpr std::size_t kMaxFrameLength = 280;
-  [[nodiscard]] static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find_if(first, last, [](std::uint8_t byte) { return byte == 0xFD || byte == 0xFE; });
-  }
   [[nodiscard]] static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <string_view>
 
+#include "protocols/decimal.h"
 #include "protocols/fletcher.h"
 #include "protocols/mip_commands.h"
 #include "protocols/wire_fields.h"
@@ -153,9 +154,9 @@ std::vector<std::uint8_t> encode_format(Field field, const std::vector<FieldRate
 }  // namespace
 
 FrameId id_of(std::uint8_t set) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  const std::array<char, 2> text{kDigits[set >> 4], kDigits[set & 0x0F]};
-  return FrameId(std::string_view(text.data(), text.size()));
+  std::string text;
+  append_hex(text, set, 2);
+  return FrameId(text);
 }
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {

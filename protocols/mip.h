@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -23,12 +22,8 @@ inline constexpr std::uint8_t kBaseSet = 0x01, k3dmSet = 0x0C, kSensorSet = 0x80
 
 inline constexpr std::size_t kOverhead = 6;  ///< sync, set, length, checksum
 
-struct Scanner {
+struct Scanner : StartsWith<0x75> {
   static constexpr std::size_t kMaxFrameLength = kOverhead + 255;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find(first, last, std::uint8_t{0x75});
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -17,16 +16,10 @@ inline constexpr FrameId kMcs{"MCS"};  ///< status, card to host
 inline constexpr FrameId kMcc{"MCC"};  ///< command, host to card
 
 /// Lines that begin `$MCS,` or `$MCC,`; any other line is not a frame.
-struct Scanner {
+struct Scanner : StartsWith<'$'> {
   /// The longest status that makes sense is 60 bytes (six-digit speeds, three-digit angles and currents); at 19200
   /// baud 96 bytes are 50 ms, half the time between two status lines.
   static constexpr std::size_t kMaxFrameLength = 96;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    if (first == last || *first == '$') return first;
-    const void* found = std::memchr(first, '$', static_cast<std::size_t>(last - first));
-    return found != nullptr ? static_cast<const std::uint8_t*>(found) : last;
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

@@ -16,13 +16,8 @@ inline constexpr std::size_t kMaxLength = 512;
 /// Sentences `$...*hh` and `!...*hh`, ended by CR LF or by LF alone. The checksum is required: without it a
 /// sentence that lost or swapped bytes reads like a good one (gpsd's rule too). The identifier of a frame is
 /// talker and type, "GPGGA", or the maker's word, "PTNTHTM"; of longer ones the first eight characters.
-struct Scanner {
+struct Scanner : StartsWith<'$', '!'> {
   static constexpr std::size_t kMaxFrameLength = kMaxLength;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    while (first != last && *first != '$' && *first != '!') ++first;
-    return first;
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last, bool requires_checksum = true);
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstring>
-
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"
 
@@ -26,14 +24,8 @@ inline constexpr std::size_t kMaxLength = 294;  ///< of Cj, the longest
 [[nodiscard]] std::size_t response_length(std::uint8_t first, std::uint8_t second);
 
 /// Frames of the receiver: @@, two letters, data, checksum, CR LF; the length follows from the letters.
-struct Scanner {
+struct Scanner : StartsWith<'@'> {
   static constexpr std::size_t kMaxFrameLength = kMaxLength;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    if (first == last || *first == '@') return first;
-    const void* const found = std::memchr(first, '@', static_cast<std::size_t>(last - first));
-    return found != nullptr ? static_cast<const std::uint8_t*>(found) : last;
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -23,12 +22,8 @@ inline constexpr FrameId kUnits{"UN"}, kContinuous{"P4"};
 
 inline constexpr std::uint8_t kHost = 0, kFirstGauge = 1;
 
-struct Scanner {
+struct Scanner : StartsWith<'*'> {
   static constexpr std::size_t kMaxFrameLength = 48;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find(first, last, std::uint8_t{'*'});
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

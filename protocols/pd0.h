@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -20,12 +19,8 @@ inline constexpr FrameId kEnsemble{"ENSEMBLE"};
 /// The longest profile, 255 cells of four beams with four quantities, has less than 6000 bytes.
 inline constexpr std::size_t kMaxLength = 8192;
 
-struct Scanner {
+struct Scanner : StartsWith<0x7F> {
   static constexpr std::size_t kMaxFrameLength = kMaxLength;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find(first, last, std::uint8_t{0x7F});
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

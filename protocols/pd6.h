@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -20,12 +19,8 @@ inline constexpr FrameId kAttitude{"SA"}, kTiming{"TS"};
 inline constexpr FrameId kBottomInstrument{"BI"}, kBottomShip{"BS"}, kBottomEarth{"BE"}, kBottomDistance{"BD"};
 inline constexpr FrameId kWaterInstrument{"WI"}, kWaterShip{"WS"}, kWaterEarth{"WE"}, kWaterDistance{"WD"};
 
-struct Scanner {
+struct Scanner : StartsWith<':'> {
   static constexpr std::size_t kMaxFrameLength = 96;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find(first, last, std::uint8_t{':'});
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

@@ -11,12 +11,6 @@ namespace navcal::protocols::samples_line {
 
 namespace {
 
-const std::uint8_t* find_byte(const std::uint8_t* first, const std::uint8_t* last, char byte) {
-  if (first == last) return last;
-  const void* const found = std::memchr(first, byte, static_cast<std::size_t>(last - first));
-  return found == nullptr ? last : static_cast<const std::uint8_t*>(found);
-}
-
 /// Whether `{"` stands anywhere in [first, last).
 bool has_next_begin(const std::uint8_t* first, const std::uint8_t* last) {
   for (const std::uint8_t* p = find_byte(first, last, '{'); p != last; p = find_byte(p + 1, last, '{')) {
@@ -42,10 +36,6 @@ FrameId class_of(std::string_view line) {
 }
 
 }  // namespace
-
-const std::uint8_t* Scanner::find_start(const std::uint8_t* first, const std::uint8_t* last) {
-  return find_byte(first, last, '{');
-}
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   const auto available = std::min(static_cast<std::size_t>(last - first), kMaxLength);

@@ -20,9 +20,8 @@ inline constexpr std::size_t kMaxLength = 2048;  ///< of a line, all bytes count
 /// Name of a frame: its class where the line begins with it ({"class":"IMU",...), else "SAMPLE".
 /// A line without `}` before its end counts as a bad checksum. The bytes `{"` begin the next line, wherever they
 /// are found, so that a line that was cut costs no other.
-struct Scanner {
+struct Scanner : StartsWith<'{'> {
   static constexpr std::size_t kMaxFrameLength = kMaxLength;
-  [[nodiscard]] static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last);
   [[nodiscard]] static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 

@@ -44,6 +44,26 @@ concept Scanner = std::default_initializable<S> && requires(const S& scanner, co
   { scanner.scan(p, p) } -> std::same_as<Scan>;
 };
 
+/// The first byte of this value, or last.
+inline const std::uint8_t* find_byte(const std::uint8_t* first, const std::uint8_t* last, std::uint8_t byte) {
+  if (first == last || *first == byte) return first;  // frames mostly follow each other: spare the call
+  const void* const found = std::memchr(first, byte, static_cast<std::size_t>(last - first));
+  return found != nullptr ? static_cast<const std::uint8_t*>(found) : last;
+}
+
+/// Base of scanners whose frames begin with one of these bytes.
+template <std::uint8_t... starts>
+struct StartsWith {
+  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
+    if constexpr (sizeof...(starts) == 1) {
+      return find_byte(first, last, (starts, ...));
+    } else {
+      while (first != last && ((*first != starts) && ...)) ++first;
+      return first;
+    }
+  }
+};
+
 /// Push parser: bytes in, frames out. No I/O, no clock, no allocation, no exceptions.
 /// Frames are found in the caller's bytes where they lie; only an unfinished tail is copied and held.
 template <Scanner S>

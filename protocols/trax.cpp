@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "protocols/crc16.h"
+#include "protocols/decimal.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::trax {
@@ -125,9 +126,9 @@ FrameId id_of(std::uint8_t number) {
                                          "FacUserCalDone",
                                          "TakeUserCalSample"};
   if (number > 0 && number < std::size(kNames)) return FrameId(kNames[number]);
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  const std::array<char, 2> text{kDigits[number >> 4], kDigits[number & 0x0F]};
-  return FrameId(std::string_view(text.data(), text.size()));
+  std::string text;
+  append_hex(text, number, 2);
+  return FrameId(text);
 }
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {

@@ -5,14 +5,13 @@
 #include <array>
 #include <cassert>
 
+#include "protocols/decimal.h"
 #include "protocols/fletcher.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::ubx {
 
 namespace {
-
-constexpr std::string_view kHexDigits = "0123456789ABCDEF";
 
 /// CRC-24Q (RTCM 10403.3, 4.2): polynomial 0x1864CFB, start 0, not reflected.
 constexpr auto kCrc24Table = [] {
@@ -38,9 +37,9 @@ std::uint32_t crc24q(Bytes bytes) {
 
 FrameId id_of(MessageCode code) {
   if (const std::string_view name = name_of(code); !name.empty()) return FrameId(name);
-  std::array<char, 4> text{};
-  for (std::size_t i = 0; i < 4; ++i) text[i] = kHexDigits[code >> (12 - 4 * i) & 0xFU];
-  return FrameId(std::string_view(text.data(), text.size()));
+  std::string text;
+  append_hex(text, code, 4);
+  return FrameId(text);
 }
 
 std::optional<MessageCode> code_of(const Frame& frame) {

@@ -43,24 +43,16 @@ inline constexpr FrameId kRtcm3{"RTCM3"};
 [[nodiscard]] inline Bytes payload_of(Bytes frame) { return frame.subspan(6, frame.size() - kOverhead); }
 
 /// Frames of UBX alone.
-struct Scanner {
+struct Scanner : StartsWith<0xB5> {
   static constexpr std::size_t kMaxFrameLength = kOverhead + kMaxPayload;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find(first, last, std::uint8_t{0xB5});
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;
 
 /// RTCM 10403.3, section 4: D3, six zero bits, length (10 bits), message, CRC-24Q. Corrections are found so that
 /// they are accounted for; they are not decoded.
-struct Rtcm3Scanner {
+struct Rtcm3Scanner : StartsWith<0xD3> {
   static constexpr std::size_t kMaxFrameLength = kMaxRtcm3;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    return std::find(first, last, std::uint8_t{0xD3});
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 
@@ -69,13 +61,8 @@ enum class Kind : std::uint8_t { ubx, nmea, rtcm3 };
 [[nodiscard]] Kind kind_of(const Frame& frame);
 
 /// A port of the receiver, where UBX, NMEA and RTCM3 may be interleaved; each byte is in one frame or in none.
-struct PortScanner {
+struct PortScanner : StartsWith<0xB5, '$', 0xD3, '!'> {
   static constexpr std::size_t kMaxFrameLength = std::max(Scanner::kMaxFrameLength, nmea::kMaxLength);
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    while (first != last && *first != 0xB5 && *first != '$' && *first != 0xD3 && *first != '!') ++first;
-    return first;
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using PortParser = StreamParser<PortScanner>;

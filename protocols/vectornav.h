@@ -18,13 +18,8 @@ inline constexpr FrameId kBinary{"VNBIN"};
 
 /// Binary messages and lines. A message with a field whose size is not in the table (satellite lists) is not a
 /// frame.
-struct Scanner {
+struct Scanner : StartsWith<0xFA, '$'> {
   static constexpr std::size_t kMaxFrameLength = 1024;
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    while (first != last && *first != 0xFA && *first != '$') ++first;
-    return first;
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

@@ -22,13 +22,8 @@ inline constexpr FrameId kVelocity{"wrz"}, kVelocityOld{"wrx"}, kTransducer{"wru
 [[nodiscard]] std::uint8_t crc8(Bytes bytes);
 
 /// Lines from the instrument. The identifier is `wr` and the letter, or the type of the object.
-struct Scanner {
+struct Scanner : StartsWith<'w', '{'> {
   static constexpr std::size_t kMaxFrameLength = 2048;  ///< of a velocity in JSON, twice its usual length
-
-  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
-    while (first != last && *first != 'w' && *first != '{') ++first;
-    return first;
-  }
   static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 using Parser = StreamParser<Scanner>;

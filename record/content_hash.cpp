@@ -33,13 +33,17 @@ class Sha256 {
 
 }  // namespace
 
-std::string hexadecimal(std::span<const unsigned char> bytes) {
+void append_hexadecimal(std::string& text, std::span<const unsigned char> bytes) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
   for (const unsigned char byte : bytes) {
     text += kDigits[byte >> 4U];
     text += kDigits[byte & 0xFU];
   }
+}
+
+std::string hexadecimal(std::span<const unsigned char> bytes) {
+  std::string text;
+  append_hexadecimal(text, bytes);
   return text;
 }
 

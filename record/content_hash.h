@@ -9,6 +9,7 @@
 namespace navcal::record {
 
 /// Two small hexadecimal digits for each byte.
+void append_hexadecimal(std::string& text, std::span<const unsigned char> bytes);
 [[nodiscard]] std::string hexadecimal(std::span<const unsigned char> bytes);
 
 /// SHA-256 in hexadecimal, small letters.

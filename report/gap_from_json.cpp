@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_name.h"
 #include "report/gap_report.h"
 
 namespace navcal::report {
@@ -74,10 +75,8 @@ SavedJson parsed(std::string_view json, std::string_view name) {
 }
 
 gap::Verdict verdict_of(const SavedValue& value) {
-  const std::string text = value.text();
-  for (const auto verdict : {gap::Verdict::no_gap, gap::Verdict::explained, gap::Verdict::unknown}) {
-    if (gap::name_of(verdict) == text) return verdict;
-  }
+  const auto verdict = base::enum_named<gap::Verdict::unknown>(value.text(), [](auto v) { return name_of(v); });
+  if (verdict) return *verdict;
   value.refuse("no verdict; known are no-gap, explained and unknown");
 }
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_name.h"
 #include "report/where_json.h"
 
 namespace navcal::report {
@@ -17,14 +18,7 @@ using EventJson = nlohmann::ordered_json;
 double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns / 1'000'000) * 1e-3; }
 
 std::string_view event_name(gap::WatchEvent::Kind kind) {
-  switch (kind) {
-    case gap::WatchEvent::Kind::window: return "status";
-    case gap::WatchEvent::Kind::skipped: return "skipped";
-    case gap::WatchEvent::Kind::alarm: return "alarm";
-    case gap::WatchEvent::Kind::cause: return "cause";
-    case gap::WatchEvent::Kind::unknown: break;
-  }
-  return "unknown";
+  return base::enum_name<gap::WatchEvent::Kind::unknown>(kind, {"status", "skipped", "alarm", "cause", "unknown"});
 }
 
 EventJson list_of_where(const gap::WatchReport& report) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/printable.h"
+
 namespace navcal::report {
 namespace {
 
@@ -109,23 +111,6 @@ summary { margin:14px 0; color:var(--soft); cursor:pointer; }
 /// Long cells break anywhere: digests and file names have no spaces.
 constexpr std::size_t kLongCell = 40;
 
-/// Length of the UTF-8 character at the beginning of `text`; 0 if there is none, because a file name may be any
-/// bytes.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = static_cast<unsigned char>(text.front());
-  const std::size_t length = byte < 0x80   ? 1
-                             : byte < 0xc2 ? 0
-                             : byte < 0xe0 ? 2
-                             : byte < 0xf0 ? 3
-                             : byte < 0xf5 ? 4
-                                           : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return 0;
-  }
-  return length;
-}
-
 std::string id_attribute(std::string_view id) {
   return id.empty() ? std::string() : " id=\"" + escaped(id) + "\"";
 }
@@ -136,7 +121,7 @@ std::string escaped(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
+    const std::size_t length = base::utf8_length(text);
     if (length != 1) {
       out += length == 0 ? "?" : text.substr(0, length);
       text.remove_prefix(std::max<std::size_t>(length, 1));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/enum_name.h"
 #include "base/square.h"
 
 namespace navcal::runs {
@@ -210,13 +211,7 @@ double RunEvidence::log_evidence(const Hypothesis& hypothesis) {
 }
 
 std::string_view verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::nominal: return "no-gap";
-    case Verdict::explained: return "explained";
-    case Verdict::unknown: return "unknown";
-    case Verdict::undecided: break;
-  }
-  return "undecided";
+  return base::enum_name<Verdict::undecided>(verdict, {"no-gap", "explained", "unknown", "undecided"});
 }
 
 RunDiagnosis diagnose(const NominalVehicle& vehicle, std::span<const Response> responses,

@@ -10,6 +10,7 @@
 
 #include "base/angles.h"
 #include "base/square.h"
+#include "base/statistics.h"
 
 namespace navcal::runs {
 namespace {
@@ -90,17 +91,11 @@ double row_rate_of(std::span<const Run> runs) {
   return rows / seconds;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// The command with which runs begin.
 double stop_command_of(std::span<const Run> runs) {
   std::vector<double> first;
   for (const Run& run : runs) first.push_back(run.command_us.row(0).mean());
-  return median(std::move(first));
+  return base::median(std::move(first));
 }
 
 /// Level, slope and curvature over the bands, one column each.

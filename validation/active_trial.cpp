@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "analysis/temporary_folder.h"
+#include "base/enum_name.h"
 #include "base/interruptible.h"
 #include "config/mission_file.h"
 #include "validation/child.h"
@@ -130,12 +131,7 @@ ActiveCounts counts_of(const std::vector<ActiveResult>& results) {
 }  // namespace
 
 std::string_view name_of(ActiveStrategy strategy) {
-  switch (strategy) {
-    case ActiveStrategy::planned: return "planned";
-    case ActiveStrategy::survey: return "survey";
-    case ActiveStrategy::random: return "random";
-  }
-  return "";
+  return base::enum_name<ActiveStrategy::random>(strategy, {"planned", "survey", "random"});
 }
 
 std::optional<ActiveResult> run_active(const TrialCase& drawn, const Commitment& seal, std::uint64_t seed,

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/enum_name.h"
+
 namespace navcal::validation {
 namespace {
 
@@ -13,9 +15,8 @@ using Json = nlohmann::json;
 [[noreturn]] void fail(const std::string& why) { throw std::runtime_error("the answer is malformed: " + why); }
 
 TrialVerdict verdict_of(const std::string& name) {
-  for (const auto verdict : {TrialVerdict::no_gap, TrialVerdict::explained, TrialVerdict::unknown}) {
-    if (name_of(verdict) == name) return verdict;
-  }
+  const auto verdict = base::enum_named<TrialVerdict::unknown>(name, [](auto v) { return name_of(v); });
+  if (verdict) return *verdict;
   fail("there is no verdict \"" + name + "\"");
 }
 
@@ -77,12 +78,7 @@ std::vector<std::string> families_of(const Json& proposal) {
 }  // namespace
 
 std::string_view name_of(TrialVerdict verdict) {
-  switch (verdict) {
-    case TrialVerdict::no_gap: return "no-gap";
-    case TrialVerdict::explained: return "explained";
-    case TrialVerdict::unknown: break;
-  }
-  return "unknown";
+  return base::enum_name<TrialVerdict::unknown>(verdict, {"no-gap", "explained", "unknown"});
 }
 
 TrialAnswer read_answer(std::string_view text) {

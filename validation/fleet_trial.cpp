@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/enum_name.h"
 #include "base/parallel.h"
 #include "base/utc_text.h"
 #include "validation/recordings.h"
@@ -204,12 +205,7 @@ class Scoring {
 }  // namespace
 
 std::string_view name_of(FleetLevel level) {
-  switch (level) {
-    case FleetLevel::vehicle: return "vehicle";
-    case FleetLevel::design: return "design";
-    case FleetLevel::day: return "day";
-  }
-  return "";
+  return base::enum_name<FleetLevel::day>(level, {"vehicle", "design", "day"});
 }
 
 bool FleetCause::acts_in(int of_vehicle, int on_day) const {
@@ -274,10 +270,9 @@ FleetTruth read_fleet_truth(std::string_view text) {
     FleetTruth truth{json.at("vehicles"), json.at("days"), json.at("begin_ns"), {}};
     for (const auto& each : json.at("causes")) {
       FleetCause cause;
-      const std::string level = each.at("level");
-      cause.level = level == "vehicle"  ? FleetLevel::vehicle
-                    : level == "design" ? FleetLevel::design
-                                        : FleetLevel::day;
+      cause.level = base::enum_named<FleetLevel::day>(each.at("level").get<std::string>(), [](auto level) {
+                      return name_of(level);
+                    }).value_or(FleetLevel::day);
       cause.vehicle = each.at("vehicle");
       cause.day = each.at("day");
       cause.strength = each.at("strength");

@@ -12,6 +12,7 @@
 
 #include "base/line_reader.h"
 #include "ports/no_throw.h"
+#include "record/json/json_members.h"
 
 namespace navcal::web {
 namespace asio = boost::asio;
@@ -36,13 +37,6 @@ std::string watch_request(const Demand& demand) {
     topic_rates[topic] = rate_Hz ? nlohmann::ordered_json(*rate_Hz) : nlohmann::ordered_json(nullptr);
   }
   return "?WATCH=" + policy.dump() + ";\n";
-}
-
-/// Empty when `object` has no such text.
-std::string text_in(const nlohmann::ordered_json& object, const char* name) {
-  if (!object.is_object()) return {};
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 }  // namespace
@@ -179,9 +173,9 @@ void LiveSource::take_topics(std::string_view line) {
     return;
   }
   for (const auto& entry : answer["topics"]) {
-    const std::string name = text_in(entry, "topic");
+    const std::string name = record::text_in(entry, "topic");
     if (name.empty() || !entry.contains("schema")) continue;
-    Topic topic{name, text_in(entry, "schema_name"), entry["schema"].dump()};
+    Topic topic{name, record::text_in(entry, "schema_name"), entry["schema"].dump()};
     const auto same = [&](const Topic& other) { return other.name == topic.name; };
     if (std::none_of(topics_.begin(), topics_.end(), same)) topics_.push_back(std::move(topic));
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_name.h"
 #include "base/printable.h"
 
 namespace navcal::analysis {
@@ -24,12 +25,7 @@ std::string words_of_utc(const ImportReport& report) {
 }
 
 std::string_view key_of(ImportReport::Utc utc) {
-  switch (utc) {
-    case ImportReport::Utc::of_file: return "file";
-    case ImportReport::Utc::of_gps: return "gps";
-    case ImportReport::Utc::unknown: break;
-  }
-  return "none";
+  return base::enum_name<ImportReport::Utc::unknown>(utc, {"file", "gps", "none"});
 }
 
 }  // namespace

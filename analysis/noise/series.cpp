@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/statistics.h"
+
 namespace navcal::analysis {
 namespace {
 
@@ -88,9 +90,7 @@ double median_period_s(const Series& series) {
   std::vector<double> steps;
   steps.reserve(series.time_s.size());
   for (std::size_t i = 1; i < series.time_s.size(); ++i) steps.push_back(series.time_s[i] - series.time_s[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return std::max(*middle, 0.0);
+  return std::max(base::median(std::move(steps)), 0.0);
 }
 
 Pieces pieces_of(const Series& series, const std::vector<Interval>& intervals, double period_s) {

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "base/statistics.h"
+
 namespace navcal::analysis {
 namespace {
 
@@ -49,12 +51,6 @@ void prepare(std::vector<double>& segment, const std::vector<double>& window) {
     segment[i] = (segment[i] - mean - slope * (static_cast<double>(i) - middle)) * window[i];
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Level of the neighbourhood without the line itself; 0 where there are too few neighbours.
 double background(const std::vector<double>& density, std::size_t at) {
   const std::size_t apart = kMainLobe + 1;
@@ -64,8 +60,8 @@ double background(const std::vector<double>& density, std::size_t at) {
     if (at + k < density.size()) above.push_back(density[at + k]);
   }
   if (below.size() < kLeastNeighbours) return 0;
-  const double level = median_of(below);
-  return above.size() < kLeastNeighbours ? level : std::max(level, median_of(above));
+  const double level = base::median(below);
+  return above.size() < kLeastNeighbours ? level : std::max(level, base::median(above));
 }
 
 bool is_peak(const std::vector<double>& density, std::size_t at) {

@@ -5,6 +5,7 @@
 
 #include "analysis/thesis/thesis_parts.h"
 #include "base/angles.h"
+#include "base/statistics.h"
 #include "calib/thesis/circle_moments.h"
 #include "calib/thesis/ellipse_bound.h"
 #include "calib/thesis/printed_tables.h"
@@ -68,13 +69,6 @@ double sample_error_deg(const calib::FieldCorrection& correction, const Eigen::V
   return base::wrapped(heading_rad - calib::levelled_heading(corrected, 0, 0)) * base::kDegreesPerRadian;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// What one set of samples of a circle gives.
 struct CircleRun {
   double least_raw_deg = 0, largest_raw_deg = 0, residual_deg = 0;
@@ -100,7 +94,7 @@ template <class Get>
 double median_of(const std::vector<CircleRun>& runs, Get get) {
   std::vector<double> values;
   for (const CircleRun& run : runs) values.push_back(get(run));
-  return median(std::move(values));
+  return base::median(std::move(values));
 }
 
 }  // namespace
@@ -144,8 +138,8 @@ ThesisFieldPath thesis_field_path(const ThesisPath& path, const calib::EllipseSh
     by_ellipse.push_back(ours.largest_deg);
     result.navcal_rms_deg += ours.rms_deg * ours.rms_deg / runs;
   }
-  result.thesis_noisy_deg = median(std::move(by_moments));
-  result.navcal_noisy_deg = median(std::move(by_ellipse));
+  result.thesis_noisy_deg = base::median(std::move(by_moments));
+  result.navcal_noisy_deg = base::median(std::move(by_ellipse));
   result.navcal_rms_deg = std::sqrt(result.navcal_rms_deg);
   result.bound_deg = thesis::ellipse_bound_deg(path, field);
   return result;

@@ -44,12 +44,8 @@ struct MemberColumn {
   }
   void operator()(bool flag) const { table.put_flag(name, flag); }
   void operator()(const std::string& words) const { table.put_text(name, words); }
-  void operator()(api::Fix fix) const {
-    table.put_text(name, std::string(name_of(static_cast<instruments::Fix>(fix))));
-  }
-  void operator()(api::VelocityFrame frame) const {
-    table.put_text(name, std::string(name_of(static_cast<instruments::VelocityFrame>(frame))));
-  }
+  void operator()(api::Fix fix) const { table.put_text(name, std::string(name_of(fix))); }
+  void operator()(api::VelocityFrame frame) const { table.put_text(name, std::string(name_of(frame))); }
 };
 
 /// Members of a sample into the columns of its kind, with the keys of `navcal replay`.

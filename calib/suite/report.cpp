@@ -5,26 +5,17 @@
 #include <array>
 #include <cstdio>
 
+#include "base/enum_name.h"
 #include "base/utc_text.h"
 
 namespace navcal::calib {
 
 std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::shadow: return "shadow";
-    case Verdict::in_force: return "in_force";
-    case Verdict::refused: break;
-  }
-  return "refused";
+  return base::enum_name<Verdict::in_force>(verdict, {"refused", "shadow", "in_force"});
 }
 
 std::string_view name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::accepted: return "accepted";
-    case Outcome::no_better: return "no better";
-    case Outcome::refused: break;
-  }
-  return "refused";
+  return base::enum_name<Outcome::accepted>(outcome, {"refused", "no better", "accepted"});
 }
 
 std::string utc_text(std::int64_t utc_ns) { return utc_ns == 0 ? "an unknown time" : base::utc_text(utc_ns); }

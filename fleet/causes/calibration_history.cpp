@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/enum_name.h"
+
 // Each course is a linear model of the values with their stated errors: a constant; a constant and a slope; two
 // constants. They are compared by the Bayesian information criterion (Schwarz 1978), which for a step counts
 // the place as a parameter, too. Errors that are too small for even the best course grow by one scatter
@@ -115,14 +117,7 @@ double excess_of(const std::vector<CalibrationPoint>& points, const Course& cour
 }  // namespace
 
 std::string_view name_of(CalibrationCourse course) {
-  switch (course) {
-    case CalibrationCourse::constant: return "constant";
-    case CalibrationCourse::drift: return "drift";
-    case CalibrationCourse::step: return "step";
-    case CalibrationCourse::scatter: return "scatter";
-    case CalibrationCourse::too_few: return "too few";
-  }
-  return "";
+  return base::enum_name<CalibrationCourse::too_few>(course, {"constant", "drift", "step", "scatter", "too few"});
 }
 
 void judge_course(CalibrationHistory& history) {

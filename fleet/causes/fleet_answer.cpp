@@ -9,6 +9,7 @@
 #include <random>
 #include <utility>
 
+#include "base/enum_name.h"
 #include "fleet/causes/limits.h"
 
 namespace navcal::fleet {
@@ -231,12 +232,7 @@ void withdraw_from_unknown(FleetAnswer& answer) {
 }  // namespace
 
 std::string_view name_of(FleetVerdict verdict) {
-  switch (verdict) {
-    case FleetVerdict::no_gap: return "no-gap";
-    case FleetVerdict::explained: return "explained";
-    case FleetVerdict::unknown: return "unknown";
-  }
-  return "";
+  return base::enum_name<FleetVerdict::unknown>(verdict, {"no-gap", "explained", "unknown"});
 }
 
 double strength_of(const FoundCause& cause) {

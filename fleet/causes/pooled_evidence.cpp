@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/statistics.h"
 #include "fleet/causes/limits.h"
 
 namespace navcal::fleet {
@@ -138,9 +139,7 @@ PooledEvidence::Gain PooledEvidence::gain(const PossibleCause& cause) const {
     best.mean = solved;
     best.covariance = slab * slab * factor.solve(Eigen::MatrixXd::Identity(z.count, z.count));
   }
-  double sum = 0;
-  for (const double each : nats) sum += std::exp(each - greatest);
-  best.log_odds = greatest + std::log(sum / static_cast<double>(nats.size())) + cause.log_prior;
+  best.log_odds = base::log_mean_exp(nats) + cause.log_prior;
   for (Eigen::Index j = 0; j < z.count; ++j) {
     const gap::ParameterName& name =
         missions_.missions().front().information.parameters[static_cast<std::size_t>(z.first + j)];

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/enum_name.h"
 #include "fleet/causes/limits.h"
 #include "fleet/causes/pooled_evidence.h"
 
@@ -42,12 +43,7 @@ void add_vehicle(const MissionGroup& vehicle, std::size_t effect, double log_pri
 }  // namespace
 
 std::string_view name_of(CauseLevel level) {
-  switch (level) {
-    case CauseLevel::vehicle: return "vehicle";
-    case CauseLevel::design: return "design";
-    case CauseLevel::day: return "day";
-  }
-  return "";
+  return base::enum_name<CauseLevel::day>(level, {"vehicle", "design", "day"});
 }
 
 std::vector<PossibleCause> possible_causes(const PooledMissions& missions) {

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "base/enum_name.h"
+#include "base/statistics.h"
 #include "base/vectors.h"
 #include "gap/data/mission.h"
 
@@ -33,12 +35,6 @@ Eigen::Vector3d downwards(const CompassReading& reading) {
   return {-st, ct * sf, ct * cf};
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Least-squares fit of the field's vertical part D and its size F, uT. Iron b along x and y, which turns with the
 /// vehicle and would change F, is fitted as well. Model for each reading B, with g the unit vector downwards in
 /// body axes:
@@ -54,7 +50,7 @@ std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassRe
     if (is_complete(reading)) sizes_uT.push_back(base::vector_of(reading.field_uT).norm());
   }
   if (sizes_uT.empty()) return std::nullopt;
-  const double usual_uT = median(std::move(sizes_uT));
+  const double usual_uT = base::median(std::move(sizes_uT));
   if (!(usual_uT > 0)) return std::nullopt;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();  // of b, D, (F^2 - |b|^2) / (2 usual size)
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
@@ -119,15 +115,7 @@ std::string EarthField::date() const {
 }
 
 std::string_view name_of(EarthField::Source source) {
-  using enum EarthField::Source;
-  switch (source) {
-    case given: return "given";
-    case stated: return "stated";
-    case model: return "model";
-    case fitted: return "fitted";
-    case reference: break;
-  }
-  return "reference";
+  return base::enum_name<EarthField::Source::fitted>(source, {"reference", "given", "stated", "model", "fitted"});
 }
 
 std::string text_of(const EarthField& field) {

@@ -7,14 +7,6 @@
 #include "record/port_matching.h"
 
 namespace navcal::gap {
-namespace {
-
-class Nobody final : public pipeline::Sink {
- public:
-  void on_sample(const instruments::Sample&) override {}
-};
-
-}  // namespace
 
 calib::Report instruments_alone(const std::filesystem::path& file, const std::optional<config::Settings>& stated,
                                 const EarthField& field, const std::function<void(double)>& progress,
@@ -29,7 +21,7 @@ calib::Report instruments_alone(const std::filesystem::path& file, const std::op
     settings.environment.declination_rad = std::atan2(east_uT, north_uT);
   }
   pipeline::Pipeline pipeline(settings);
-  Nobody nobody;
+  pipeline::Sink nobody;
   while (const auto entry = recording->next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       const auto port = ports[raw->port];

@@ -12,7 +12,6 @@
 #include "base/angles.h"
 #include "base/local_plane.h"
 #include "instruments/compass_error.h"
-#include "protocols/motor_card.h"
 #include "record/json/flat_json.h"
 #include "record/port_matching.h"
 
@@ -74,12 +73,6 @@ void expect_instruments_at_origin(const config::Settings& settings, const std::f
   }
 }
 
-Vector3 fins_rad(const protocols::motor_card::Command& command) {
-  Vector3 fins_rad{};
-  for (std::size_t i = 0; i < fins_rad.size(); ++i) fins_rad[i] = command.fins_deg[i] * base::kRadiansPerDegree;
-  return fins_rad;
-}
-
 /// Names what an incomplete sample lacks; the shortest list of all incomplete samples counts.
 void set_lacks(std::string& lacks, std::initializer_list<std::pair<bool, std::string_view>> parts) {
   std::string words;
@@ -90,6 +83,12 @@ void set_lacks(std::string& lacks, std::initializer_list<std::pair<bool, std::st
 }
 
 }  // namespace
+
+Order order_of(const protocols::motor_card::Command& command, double time_s) {
+  Order order{time_s, static_cast<double>(command.rpm), {}};
+  for (std::size_t i = 0; i < 3; ++i) order.fins_rad[i] = command.fins_deg[i] * base::kRadiansPerDegree;
+  return order;
+}
 
 std::vector<double> Mission::fix_times_s() const {
   std::vector<double> times_s;
@@ -322,7 +321,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
         commanded_s.push_back(static_cast<double>(raw->time_ns - *begin_ns) * 1e-9);
         // A repeated order moves nothing.
         if (order != last_order) {
-          orders.push_back({commanded_s.back(), static_cast<double>(order->rpm), fins_rad(*order)});
+          orders.push_back(order_of(*order, commanded_s.back()));
         }
         last_order = order;
       }

@@ -16,6 +16,7 @@
 #include "gap/data/silence.h"
 #include "instruments/samples.h"
 #include "pipeline/pipeline.h"
+#include "protocols/motor_card.h"
 #include "record/recording.h"
 #include "sim/state.h"
 
@@ -59,6 +60,8 @@ struct Order {
   double rpm = 0;
   Vector3 fins_rad{};
 };
+
+[[nodiscard]] Order order_of(const protocols::motor_card::Command& command, double time_s);
 
 /// Readings of the instruments of one mission, each in order of time.
 struct Mission {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/enum_name.h"
 #include "base/parallel.h"
 #include "gap/design/planner.h"
 #include "gap/design/question.h"
@@ -192,12 +193,7 @@ std::string description_of(const NextMission& next) {
 }  // namespace
 
 std::string_view name_of(MissionPurpose purpose) {
-  switch (purpose) {
-    case MissionPurpose::separate: return "separate";
-    case MissionPurpose::cover: return "cover";
-    case MissionPurpose::sharpen: break;
-  }
-  return "sharpen";
+  return base::enum_name<MissionPurpose::sharpen>(purpose, {"separate", "cover", "sharpen"});
 }
 
 NextMission plan_next_mission(const Study& study, const config::MissionLimits& limits, const Progress& progress) {

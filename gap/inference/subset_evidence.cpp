@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/subset_evidence.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "base/statistics.h"
 #include "gap/thresholds.h"
 
 namespace navcal::gap {
@@ -44,10 +44,7 @@ double SubsetEvidence::gain(const EffectSubset& set) const {
     }
     gains[n] = evidence_.gain(members, slabs);
   }
-  const double greatest = *std::max_element(gains.begin(), gains.end());
-  double sum = 0;
-  for (const double one : gains) sum += std::exp(one - greatest);
-  return greatest + std::log(sum / static_cast<double>(combinations));
+  return base::log_mean_exp(gains);
 }
 
 }  // namespace navcal::gap

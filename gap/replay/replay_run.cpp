@@ -13,6 +13,7 @@
 #include "gap/replay/estimator_gains.h"
 #include "sim/rotation.h"
 #include "sim/vehicle/steady_advance.h"
+#include "sim/vehicle/stepped_motion.h"
 
 namespace navcal::gap {
 namespace {
@@ -31,8 +32,6 @@ constexpr double kDriftVariance_m2_s = 0.02;
 constexpr double kRestart_s = 5;
 constexpr double kLongestStep_s = 0.06;
 constexpr double kSubmerged_s = 10;
-
-Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 Eigen::Vector3d euler_rates(const Eigen::Vector3d& euler_rad, const Eigen::Vector3d& rate_rad_s) {
   const double cf = std::cos(euler_rad[0]), sf = std::sin(euler_rad[0]);
@@ -80,13 +79,7 @@ ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
 void ReplayRun::complete(sim::State& state, double time_s) {
   const std::size_t row = actuators_.row_at(time_s);
   const sim::Controls now = actuators_.of_row(row);
-  const auto acceleration = in_.vehicle.acceleration(body_, in_.vehicle.hold(now.values(), influences_));
-  state.position_m = array_of(body_.position_m);
-  state.euler_rad = array_of(body_.euler_rad);
-  state.velocity_body_m_s = array_of(body_.velocity.head<3>());
-  state.rate_rad_s = array_of(body_.velocity.tail<3>());
-  state.specific_force_m_s2 = sim::specific_force(state.euler_rad, state.velocity_body_m_s, state.rate_rad_s,
-                                                  array_of(acceleration.head<3>()));
+  sim::set_motion(state, body_, in_.vehicle.acceleration(body_, in_.vehicle.hold(now.values(), influences_)));
   state.fins_rad = in_.actuators[row].fins_rad;
   state.rpm = 60 * now.shaft_rps;
   state.motor_current_A = in_.current_A[row];
@@ -180,7 +173,7 @@ void ReplayRun::carry(const CardReading& to) {
   for (int i = 0; i < steps; ++i) {
     // Across a gap the gyro readings at its two ends do not describe the motion in between, so the rates are
     // those of the vehicle model.
-    if (steps > 3 || !measured) rate = array_of(body_.velocity.tail<3>());
+    if (steps > 3 || !measured) rate = sim::array_of(body_.velocity.tail<3>());
     step(from_s + span_s * i / steps, from_s + span_s * (i + 1) / steps, rate);
   }
 }
@@ -365,7 +358,8 @@ Innovations ReplayRun::innovations(Trajectory10Hz* course) {
     take_fixes(reading.time_s);
     take_card(reading);
     instruments_.feel(reading.time_s, predicted);
-    states_.correct(array_of(body_.euler_rad), array_of(body_.position_m), array_of(body_.velocity.tail<3>()));
+    states_.correct(sim::array_of(body_.euler_rad), sim::array_of(body_.position_m),
+                    sim::array_of(body_.velocity.tail<3>()));
     if (course != nullptr) write_course(reading, *course);
   }
   // 0 / 0 gives NaN where nothing was measured.

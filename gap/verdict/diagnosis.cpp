@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/enum_name.h"
+
 namespace navcal::gap {
 
 Track track_of_fixes(const Mission& mission) {
@@ -34,17 +36,11 @@ Track reckoned_track(const Trajectory10Hz& course, const Mission& mission) {
 }
 
 std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::no_gap: return "no-gap";
-    case Verdict::explained: return "explained";
-    case Verdict::unknown: break;
-  }
-  return "unknown";
+  return base::enum_name<Verdict::unknown>(verdict, {"no-gap", "explained", "unknown"});
 }
 
 std::string_view name_of(UnknownKind kind) {
-  constexpr std::array<std::string_view, 3> kNames{"ambiguous", "outside", "cannot say"};
-  return kNames.at(static_cast<std::size_t>(kind));
+  return base::enum_name<UnknownKind::cannot_say>(kind, {"ambiguous", "outside", "cannot say"});
 }
 
 }  // namespace navcal::gap

@@ -26,10 +26,7 @@ void watch_recording(const std::filesystem::path& file, const std::optional<conf
       if (raw->direction == record::Direction::received) {
         if (const auto port = ports[raw->port]) pipeline.bytes(*port, raw->time_ns, raw->bytes, watch);
       } else if (const auto command = protocols::motor_card::decode_command(raw->bytes)) {
-        Order order{0, static_cast<double>(command->rpm), {}};
-        for (std::size_t i = 0; i < order.fins_rad.size(); ++i)
-          order.fins_rad[i] = command->fins_deg[i] * base::kRadiansPerDegree;
-        watch.on_order(raw->time_ns, order);
+        watch.on_order(raw->time_ns, order_of(*command, 0));
       }
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, watch);
@@ -113,7 +110,6 @@ std::string_view live_request() {
 
 LiveRecords::LiveRecords() : pipeline_(samples_port()) {
   struct NoSink final : pipeline::Sink {
-    void on_sample(const instruments::Sample&) override {}
   } nobody;
   pipeline::UtcMapping identity;
   identity.source = pipeline::UtcMapping::Source::file;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/durations.h"
+#include "base/enum_name.h"
 #include "gap/thresholds.h"
 #include "gap/verdict/where.h"
 
@@ -45,13 +46,7 @@ std::vector<Eigen::Index> watched_columns(const Library& library) {
 }  // namespace
 
 std::string_view name_of(WatchReport::Verdict verdict) {
-  switch (verdict) {
-    case WatchReport::Verdict::no_gap: return "no_gap";
-    case WatchReport::Verdict::gap: return "gap";
-    case WatchReport::Verdict::named: return "named";
-    case WatchReport::Verdict::unknown: break;
-  }
-  return "unknown";
+  return base::enum_name<WatchReport::Verdict::unknown>(verdict, {"no_gap", "gap", "named", "unknown"});
 }
 
 Watch::Watch(const config::VehicleSettings& vehicle, const Library& library, const WatchReference& reference,

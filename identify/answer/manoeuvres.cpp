@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "autopilot/allocation.h"
+#include "base/statistics.h"
 #include "identify/answer/directions.h"
 #include "identify/data/actuator_inputs.h"
 #include "identify/replay/predicted_readings.h"
@@ -157,9 +158,8 @@ std::vector<ChannelNoise> channels_of(const RecordedMotion& motion) {
     if (!(span_s > 0)) continue;
     std::vector<double> stds;
     for (const Reading& reading : readings) stds.push_back(reading.std);
-    std::nth_element(stds.begin(), stds.begin() + static_cast<std::ptrdiff_t>(stds.size() / 2), stds.end());
-    all.push_back(
-        {static_cast<Channel>(c), static_cast<double>(readings.size() - 1) / span_s, stds[stds.size() / 2]});
+    all.push_back({static_cast<Channel>(c), static_cast<double>(readings.size() - 1) / span_s,
+                   base::median(std::move(stds))});
   }
   return all;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "base/enum_name.h"
 #include "gap/actuators/actuator_track.h"
 
 namespace navcal::identify {
@@ -73,12 +74,7 @@ Signal commands_of(const Signal& pulses, const config::LayoutThruster& thruster)
 }
 
 std::string_view unit_name(config::CommandUnit unit) {
-  switch (unit) {
-    case config::CommandUnit::rpm: return "rpm";
-    case config::CommandUnit::percent: return "%";
-    case config::CommandUnit::microseconds: return "us";
-  }
-  return "";
+  return base::enum_name<config::CommandUnit::microseconds>(unit, {"rpm", "%", "us"});
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/gravity.h"
 #include "base/local_plane.h"
 #include "devices/instrument_model.h"
+#include "gap/data/mission.h"
 #include "instruments/compass_error.h"
 #include "instruments/samples.h"
 #include "pipeline/earth_field.h"
@@ -267,9 +268,7 @@ RecordedMotion thinned(RecordedMotion motion, double interval_s) {
 RecordedMotion load_motion(const std::filesystem::path& file, const std::function<void(double)>& progress,
                            const std::optional<config::Settings>& stated, const record::TimeWindow& window) {
   const auto recording = record::Recording::open(file, window);
-  config::Settings settings = stated ? *stated : recording->settings();
-  settings.calibration.enabled = false;
-  settings.navigation.enabled = false;
+  const config::Settings settings = gap::samples_only(stated ? *stated : recording->settings());
   const record::PortMatch ports(recording->settings(), settings);
   const devices::InstrumentModel model = devices::without_mounting(devices::instrument_model(settings));
   pipeline::Pipeline pipeline(settings);
@@ -287,9 +286,7 @@ RecordedMotion load_motion(const std::filesystem::path& file, const std::functio
                  order && order != last_order) {
         // A repeated order moves nothing.
         orders_ns.push_back(raw->time_ns);
-        ordered_fins_rad.push_back({order->fins_deg[0] * base::kRadiansPerDegree,
-                                    order->fins_deg[1] * base::kRadiansPerDegree,
-                                    order->fins_deg[2] * base::kRadiansPerDegree});
+        ordered_fins_rad.push_back(gap::order_of(*order, 0).fins_rad);
         last_order = order;
       }
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {

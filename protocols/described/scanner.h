@@ -23,11 +23,7 @@ class Scanner {
 
   [[nodiscard]] const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) const {
     if (!plan_) return last;
-    if (plan_->sole_start >= 0) {
-      if (first == last || *first == plan_->sole_start) return first;
-      const void* found = std::memchr(first, plan_->sole_start, static_cast<std::size_t>(last - first));
-      return found != nullptr ? static_cast<const std::uint8_t*>(found) : last;
-    }
+    if (plan_->sole_start >= 0) return find_byte(first, last, static_cast<std::uint8_t>(plan_->sole_start));
     return find_any_start(first, last);
   }
   [[nodiscard]] Scan scan(const std::uint8_t* first, const std::uint8_t* last) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "record/capture/capture_reader.h"
+#include "record/content_hash.h"
 #include "record/json/json_object.h"
 
 namespace navcal::record {
@@ -23,7 +24,6 @@ void CaptureWriter::begin(std::string& out) const {
 void CaptureWriter::bytes(std::string& out, std::uint16_t port, Direction direction, std::int64_t utc_ns,
                           protocols::Bytes bytes) {
   constexpr std::size_t kMostBytesOfALine = 4096;
-  constexpr std::string_view kDigits = "0123456789abcdef";
   if (utc_ns < last_ns_) {
     utc_ns = last_ns_;
     ++raised_;
@@ -35,10 +35,7 @@ void CaptureWriter::bytes(std::string& out, std::uint16_t port, Direction direct
     out += ' ';
     out += ports_[port].name;
     out += direction == Direction::received ? " < " : " > ";
-    for (const std::uint8_t byte : part) {
-      out += kDigits[byte >> 4];
-      out += kDigits[byte & 0xF];
-    }
+    append_hexadecimal(out, part);
     out += '\n';
     bytes = bytes.subspan(part.size());
   }

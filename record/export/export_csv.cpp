@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "record/content_hash.h"
 #include "record/export/export.h"
 #include "record/export/sensor_places.h"
 #include "record/export/topic_columns.h"
@@ -71,17 +72,13 @@ struct Output {
 };
 
 void append_raw_line(std::string& out, std::string_view data, const pipeline::UtcMapping& mapping) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   const auto at = read_le<std::int64_t>(data, 1);
   append_seconds(out, mapping.to_utc(at));
   out += ',';
   append_seconds(out, at);
   out += data.front() == 0 ? ",<," : ",>,";
-  for (const char c : data.substr(kRawHead, data.size() - kRawHead - kRawTail)) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += kDigits[byte >> 4];
-    out += kDigits[byte & 0xF];
-  }
+  const std::string_view bytes = data.substr(kRawHead, data.size() - kRawHead - kRawTail);
+  append_hexadecimal(out, {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
   out += '\n';
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/angles.h"
+#include "base/enum_name.h"
 #include "record/json/base64.h"
 #include "record/json/correction_json.h"
 #include "record/json/flat_json.h"
@@ -118,14 +119,6 @@ using Cause = pipeline::CalibrationChange::Cause;
 
 constexpr std::string_view kHead = "{\"class\":\"CALIBRATION\"";
 
-std::optional<Cause> cause_named(std::string_view name) {
-  for (const Cause cause :
-       {Cause::begin, Cause::automatic, Cause::accept, Cause::force, Cause::roll_back, Cause::start}) {
-    if (pipeline::name_of(cause) == name) return cause;
-  }
-  return std::nullopt;
-}
-
 std::string in_force_json(const calib::Correction& correction) {
   auto json = nlohmann::ordered_json::object();
   for (const auto calibrator : calib::calibrators()) {
@@ -154,7 +147,9 @@ bool is_calibration_change(std::string_view json) { return json.starts_with(kHea
 std::optional<pipeline::CalibrationChange> calibration_from_json(std::string_view json) {
   if (!is_calibration_change(json)) return std::nullopt;
   const auto members = FlatJson::parse(json);
-  const auto cause = members ? cause_named(members->get("cause")) : std::nullopt;
+  const auto cause =
+      members ? base::enum_named<Cause::start>(members->get("cause"), [](auto one) { return name_of(one); })
+              : std::nullopt;
   const auto time_ns = members ? nanoseconds(members->get("monotonic")) : std::nullopt;
   if (!cause || !time_ns) return std::nullopt;
   pipeline::CalibrationChange change;

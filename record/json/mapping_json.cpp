@@ -5,23 +5,12 @@
 #include <charconv>
 
 #include "base/durations.h"
+#include "base/enum_name.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
 
 namespace navcal::record {
-namespace {
-
 using pipeline::UtcMapping;
-
-std::optional<UtcMapping::Source> source_named(std::string_view name) {
-  using enum UtcMapping::Source;
-  for (const auto source : {none, file, system, system_synchronised, gps}) {
-    if (pipeline::name_of(source) == name) return source;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 void append_json(std::string& out, std::int64_t now_ns, const UtcMapping& mapping) {
   JsonObject json(out, "TIME");
@@ -40,7 +29,8 @@ void append_json(std::string& out, std::int64_t now_ns, const UtcMapping& mappin
 std::optional<UtcMapping> mapping_from_json(std::string_view json) {
   const auto members = FlatJson::parse(json);
   if (!members) return std::nullopt;
-  const auto source = source_named(members->get("source"));
+  const auto source =
+      base::enum_named<UtcMapping::Source::gps>(members->get("source"), [](auto s) { return name_of(s); });
   const auto offset = nanoseconds(members->get("offset"));
   const auto at = nanoseconds(members->get("at"));
   const std::string* const bound_text = members->find("bound");

@@ -25,49 +25,6 @@ void EffectSet::reseed(std::uint64_t seed) {
   for (const Member& member : members_) member.effect->reseed(seed += kApart);
 }
 
-template <class Hook>
-void EffectSet::each(double time_s, Hook hook) {
-  for (const Member& member : members_) {
-    if (member.when.contains(time_s)) hook(*member.effect);
-  }
-}
-
-void EffectSet::earth_field(const Instant& now, Vector3& field_world_uT) {
-  each(now.time_s, [&](Effect& effect) { effect.earth_field(now, field_world_uT); });
-}
-
-void EffectSet::body_field(const Instant& now, Vector3& field_body_uT) {
-  each(now.time_s, [&](Effect& effect) { effect.body_field(now, field_body_uT); });
-}
-
-void EffectSet::tilt_seen(const Instant& now, Tilt& tilt) {
-  each(now.time_s, [&](Effect& effect) { effect.tilt_seen(now, tilt); });
-}
-
-void EffectSet::tilt_said(const Instant& now, Tilt& tilt) {
-  each(now.time_s, [&](Effect& effect) { effect.tilt_said(now, tilt); });
-}
-
-void EffectSet::gyros(const Instant& now, GyroRates& rate_rad_s) {
-  each(now.time_s, [&](Effect& effect) { effect.gyros(now, rate_rad_s); });
-}
-
-void EffectSet::accelerometers(const Instant& now, Vector3& force_m_s2) {
-  each(now.time_s, [&](Effect& effect) { effect.accelerometers(now, force_m_s2); });
-}
-
-void EffectSet::depth(const Instant& now, double& depth_m) {
-  each(now.time_s, [&](Effect& effect) { effect.depth(now, depth_m); });
-}
-
-void EffectSet::card_voltages(const Instant& now, CardVoltages_mV& voltages) {
-  each(now.time_s, [&](Effect& effect) { effect.card_voltages(now, voltages); });
-}
-
-void EffectSet::antenna(const Instant& now, AntennaMotion& motion) {
-  each(now.time_s, [&](Effect& effect) { effect.antenna(now, motion); });
-}
-
 Delays EffectSet::delays(double time_s) {
   Delays more;
   each(time_s, [&](Effect& effect) { effect.delays(more); });

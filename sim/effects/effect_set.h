@@ -55,15 +55,21 @@ class EffectSet final : public VehicleInfluencer {
   }
 
   // The hooks of Effect, through all that act now.
-  void earth_field(const Instant& now, Vector3& field_world_uT);
-  void body_field(const Instant& now, Vector3& field_body_uT);
-  void tilt_seen(const Instant& now, Tilt& tilt);
-  void tilt_said(const Instant& now, Tilt& tilt);
-  void gyros(const Instant& now, GyroRates& rate_rad_s);
-  void accelerometers(const Instant& now, Vector3& force_m_s2);
-  void depth(const Instant& now, double& depth_m);
-  void card_voltages(const Instant& now, CardVoltages_mV& voltages);
-  void antenna(const Instant& now, AntennaMotion& motion);
+  void earth_field(const Instant& now, Vector3& field_world_uT) {
+    through(&Effect::earth_field, now, field_world_uT);
+  }
+  void body_field(const Instant& now, Vector3& field_body_uT) { through(&Effect::body_field, now, field_body_uT); }
+  void tilt_seen(const Instant& now, Tilt& tilt) { through(&Effect::tilt_seen, now, tilt); }
+  void tilt_said(const Instant& now, Tilt& tilt) { through(&Effect::tilt_said, now, tilt); }
+  void gyros(const Instant& now, GyroRates& rate_rad_s) { through(&Effect::gyros, now, rate_rad_s); }
+  void accelerometers(const Instant& now, Vector3& force_m_s2) {
+    through(&Effect::accelerometers, now, force_m_s2);
+  }
+  void depth(const Instant& now, double& depth_m) { through(&Effect::depth, now, depth_m); }
+  void card_voltages(const Instant& now, CardVoltages_mV& voltages) {
+    through(&Effect::card_voltages, now, voltages);
+  }
+  void antenna(const Instant& now, AntennaMotion& motion) { through(&Effect::antenna, now, motion); }
   [[nodiscard]] Delays delays(double time_s);
   void influence(double time_s, Influences& on) override;
   void link_fins(double time_s, double step_s, Vector3& fins_rad) override;
@@ -81,7 +87,15 @@ class EffectSet final : public VehicleInfluencer {
     Interval when;
   };
   template <class Hook>
-  void each(double time_s, Hook hook);
+  void each(double time_s, Hook hook) {
+    for (const Member& member : members_) {
+      if (member.when.contains(time_s)) hook(*member.effect);
+    }
+  }
+  template <class Changed>
+  void through(void (Effect::*hook)(const Instant&, Changed&), const Instant& now, Changed& changed) {
+    each(now.time_s, [&](Effect& effect) { (effect.*hook)(now, changed); });
+  }
 
   std::int64_t begin_ns_;
   std::vector<Member> members_;

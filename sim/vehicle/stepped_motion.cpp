@@ -43,14 +43,18 @@ Influences SteppedMotion::influences() const {
   return influences;
 }
 
-State SteppedMotion::state_of(const Vector6& acceleration, const Influences& influences) const {
-  State state;
-  state.position_m = array_of(body_.position_m);
-  state.euler_rad = array_of(body_.euler_rad);
-  state.velocity_body_m_s = array_of(body_.velocity.head<3>());
-  state.rate_rad_s = array_of(body_.velocity.tail<3>());
+void set_motion(State& state, const Body& body, const Vector6& acceleration) {
+  state.position_m = array_of(body.position_m);
+  state.euler_rad = array_of(body.euler_rad);
+  state.velocity_body_m_s = array_of(body.velocity.head<3>());
+  state.rate_rad_s = array_of(body.velocity.tail<3>());
   state.specific_force_m_s2 =
       specific_force(state.euler_rad, state.velocity_body_m_s, state.rate_rad_s, array_of(acceleration.head<3>()));
+}
+
+State SteppedMotion::state_of(const Vector6& acceleration, const Influences& influences) const {
+  State state;
+  set_motion(state, body_, acceleration);
   state.current_m_s = influences.current_m_s;
   state.water_temperature_C = water_temperature_C(state.position_m[2]);
   return state;

@@ -84,6 +84,9 @@ class SteppedMotion : public Motion {
   mutable std::optional<double> ended_s_;
 };
 
+/// Writes position, attitude, velocities and specific force of a body.
+void set_motion(State& state, const Body& body, const Vector6& acceleration);
+
 [[nodiscard]] inline Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace navcal::sim

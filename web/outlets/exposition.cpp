@@ -7,16 +7,13 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_name.h"
+
 namespace navcal::web {
 namespace {
 
 std::string_view name_of(Exposition::Type type) {
-  switch (type) {
-    case Exposition::Type::counter: return "counter";
-    case Exposition::Type::gauge: return "gauge";
-    case Exposition::Type::histogram: return "histogram";
-  }
-  return "untyped";
+  return base::enum_name<Exposition::Type::histogram>(type, {"counter", "gauge", "histogram"});
 }
 
 void append_escaped(std::string& out, std::string_view text, bool quotes) {

@@ -10,6 +10,7 @@
 
 #include "autopilot/controllability.h"
 #include "base/angles.h"
+#include "base/enum_name.h"
 #include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim {
@@ -147,13 +148,7 @@ constexpr std::array kLayoutEffects{
 };
 
 std::string_view word_of(LayoutPart part) {
-  switch (part) {
-    case thruster: return "thruster";
-    case surface: return "surface";
-    case ballast: return "ballast";
-    case moving_mass: return "moving_mass";
-    default: return "";
-  }
+  return base::enum_name<LayoutPart::freedom>(part, {"", "thruster", "surface", "ballast", "moving_mass", "", ""});
 }
 
 template <class Visit>
@@ -195,13 +190,8 @@ double scale_value(const config::Layout& layout, LayoutScale scale) {
 }
 
 std::string_view scale_words(LayoutScale scale) {
-  switch (scale) {
-    case LayoutScale::mass_kg: return " of the mass";
-    case LayoutScale::weight_N: return " of the weight";
-    case LayoutScale::length_m: return " of the cube root of the volume";
-    case LayoutScale::one: break;
-  }
-  return "";
+  return base::enum_name<LayoutScale::length_m>(
+      scale, {"", " of the mass", " of the weight", " of the cube root of the volume"});
 }
 
 std::string_view part_words(LayoutPart part) {
