@@ -40,9 +40,13 @@ void AutopilotCompass::take(std::string_view name, double value) {
 }
 
 void AutopilotCompass::take_offset(int unit, const Vector3& offset_uT) {
-  if (!std::ranges::all_of(offset_uT, [](double value) { return std::isfinite(value); })) return;
-  std::ranges::transform(offset_uT, units_.at(static_cast<std::size_t>(unit)).offset_mG.begin(),
-                         [](double value_uT) { return value_uT / kMilliGauss_uT; });
+  constexpr double kCut_mG = 1;
+  auto& offset_mG = units_.at(static_cast<std::size_t>(unit)).offset_mG;
+  for (std::size_t axis = 0; axis < offset_uT.size(); ++axis) {
+    const double stated_mG = offset_uT[axis] / kMilliGauss_uT;
+    const bool is_new = !offset_mG[axis] || std::abs(stated_mG - *offset_mG[axis]) >= kCut_mG;
+    if (std::isfinite(stated_mG) && is_new) offset_mG[axis] = stated_mG;
+  }
 }
 
 std::optional<Vector3> AutopilotCompass::measured_uT(int unit, const Vector3& sent_uT,

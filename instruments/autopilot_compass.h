@@ -21,7 +21,7 @@ class AutopilotCompass {
 
   /// A parameter; those of other names, and numbers that are not finite, are ignored.
   void take(std::string_view name, double value);
-  /// OFS of `unit`, where it is stated otherwise; one that is not finite is ignored.
+  /// OFS of `unit` beside a field, cut to whole mGauss: it counts where it is not that of the parameters.
   void take_offset(int unit, const Vector3& offset_uT);
   /// Field as it was measured. Nullopt while a parameter of `unit` (0: the first) is missing, where D has no
   /// inverse, and where the calibration depends on what is not sent (on the throttle; on a current that is

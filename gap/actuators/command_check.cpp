@@ -16,7 +16,7 @@ namespace navcal::gap {
 namespace {
 
 constexpr double kStep_s = 0.02;
-constexpr double kEarliest_s = -1, kLatest_s = 10;
+constexpr double kEarliest_s = -1, kMostDelay_s = 10;
 /// Correlation below which commands and motion have nothing to do with each other.
 constexpr double kLeastCorrelation = 0.6;
 constexpr double kLeastMove_rad = 0.3 * base::kRadiansPerDegree;  ///< standard deviation
@@ -24,7 +24,7 @@ constexpr double kMoved_rad = 1 * base::kRadiansPerDegree;
 constexpr double kAtLimit_rad = 0.1 * base::kRadiansPerDegree;
 
 /// A quantity every kStep_s from `begin_s` on.
-struct Series {
+struct OrderedSeries {
   double begin_s = 0;
   std::vector<double> values;
 };
@@ -38,7 +38,7 @@ struct Measured {
 /// means.
 class Correlation {
  public:
-  void add(const Series& predicted, const Measured& measured, double late_s) {
+  void add(const OrderedSeries& predicted, const Measured& measured, double late_s) {
     double n = 0, sum_p = 0, sum_m = 0, pp = 0, mm = 0, pm = 0;
     for (std::size_t i = 0; i < measured.values.size(); ++i) {
       const double place = (measured.times_s[i] - late_s - predicted.begin_s) / kStep_s;
@@ -72,10 +72,10 @@ struct Delay {
   double late_s = 0, correlation = 0, spread = 0;
 };
 
-Delay delay_of(std::span<const Series> predicted, std::span<const Measured> measured) {
+Delay delay_of(std::span<const OrderedSeries> predicted, std::span<const Measured> measured) {
   std::vector<double> values;
   Delay best;
-  const auto steps = static_cast<int>(std::lround((kLatest_s - kEarliest_s) / kStep_s));
+  const auto steps = static_cast<int>(std::lround((kMostDelay_s - kEarliest_s) / kStep_s));
   for (int k = 0; k <= steps; ++k) {
     Correlation correlation;
     const double late_s = kEarliest_s + k * kStep_s;
@@ -96,7 +96,7 @@ Delay delay_of(std::span<const Series> predicted, std::span<const Measured> meas
 /// Delay of the reported fins behind servos that obey the commands.
 Delay delay_of_reports(const Mission& mission, const config::VehicleSettings& vehicle) {
   const auto obeying = commanded_motor(mission.orders, vehicle, mission.duration_s, kStep_s);
-  std::vector<Series> predicted(3);
+  std::vector<OrderedSeries> predicted(3);
   std::vector<Measured> measured(3);
   for (std::size_t fin = 0; fin < 3; ++fin) {
     predicted[fin].begin_s = obeying.front().time_s;
@@ -110,11 +110,11 @@ Delay delay_of_reports(const Mission& mission, const config::VehicleSettings& ve
 }
 
 /// Yaw rate of the nominal vehicle under the commands, from rest.
-Series commanded_yaw_rate(const Mission& mission, const config::VehicleSettings& settings) {
+OrderedSeries commanded_yaw_rate(const Mission& mission, const config::VehicleSettings& settings) {
   const auto obeying = commanded_motor(mission.orders, settings, mission.duration_s, kStep_s);
   const sim::LayoutVehicle vehicle(sim::layout_of(settings));
   sim::Body body;
-  Series yaw{obeying.front().time_s, {}};
+  OrderedSeries yaw{obeying.front().time_s, {}};
   for (const MotorReading& reading : obeying) {
     const auto& fins = reading.fins_rad;
     const sim::ActuatorValues held{{reading.rpm}, {fins[0], fins[1], fins[2]}, {}, {}};
@@ -140,7 +140,7 @@ Measured measured_yaw_rate(const Mission& mission) {
 
 /// Delay of the measured yaw rate behind that of the nominal vehicle.
 Delay delay_of_turns(const Mission& mission, const config::VehicleSettings& vehicle) {
-  const Series predicted = commanded_yaw_rate(mission, vehicle);
+  const OrderedSeries predicted = commanded_yaw_rate(mission, vehicle);
   const Measured measured = measured_yaw_rate(mission);
   return delay_of({&predicted, 1}, {&measured, 1});
 }

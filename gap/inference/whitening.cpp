@@ -10,10 +10,10 @@ namespace navcal::gap {
 namespace {
 
 /// Distance at which each window begins and ends, intervals.
-struct Window {
+struct LagWindow {
   Eigen::Index first, last;
 };
-constexpr std::array<Window, PredictionErrorFilter::kWindows> kPast{
+constexpr std::array<LagWindow, PredictionErrorFilter::kWindows> kPast{
     {{1, 1}, {2, 2}, {3, 4}, {5, 8}, {9, 16}, {17, 32}, {33, 64}}};
 /// Ridge, as a share of the regressors' squares: a channel that was never measured gets no weight.
 constexpr double kRidge = 1e-6;

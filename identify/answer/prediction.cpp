@@ -15,8 +15,8 @@
 namespace navcal::identify {
 namespace {
 
-constexpr int kModelSteps = 5;  ///< of the layout's vehicle, in one of the grid
-constexpr double kModelStep_s = kGrid_s / kModelSteps;
+constexpr int kLayoutSteps = 5;  ///< of the layout's vehicle, in one of the grid
+constexpr double kModelStep_s = kGrid_s / kLayoutSteps;
 constexpr std::ptrdiff_t kSlopeSteps = 3;  ///< steps of the grid before and behind, for a derivative
 constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};  ///< steps of the grid
 constexpr double kSteered = 3;
@@ -203,7 +203,7 @@ class Forecast {
     follow(Predictor::linear, by.linear);
     follow(Predictor::quadratic, by.quadratic);
     sim::ActuatorValues positions = sim::ActuatorValues::neutral(by.vehicle.layout());
-    for (int i = 0; i < kModelSteps && is_sound_; ++i) {
+    for (int i = 0; i < kLayoutSteps && is_sound_; ++i) {
       actuators.mean(time_s + i * kModelStep_s, kModelStep_s, positions);
       const sim::Body next = by.vehicle.step((*this)[Predictor::layout], positions, kModelStep_s).body;
       is_sound_ = is_sane(next);

@@ -15,6 +15,8 @@ import subprocess
 import sys
 import tempfile
 
+import numpy
+
 SIZES = dict(a="64s", b="b", B="B", h="h", H="H", i="i", I="I", f="f", d="d", n="4s", N="16s", Z="64s", c="h", C="H", e="i",
              E="I", L="i", M="B", q="q", Q="Q")
 
@@ -35,8 +37,25 @@ def records(data):
         at += length
 
 
+def compass_parameters(data):
+    """Matrix and offsets (mGauss) of each compass: field = matrix (measured + offsets), where no motor and no scale has a part."""
+    value = {}
+    for name, row in records(data):
+        if name == "PARM":
+            value.setdefault(row["Name"].split(b"\0")[0].decode(), row["Value"])
+    found = []
+    for number in ("", "2", "3"):
+        assert value["COMPASS_MOTCT"] == 0 and value[f"COMPASS_SCALE{number}"] in (0, 1)
+        x, y, z = (value[f"COMPASS_DIA{number}_{axis}"] for axis in "XYZ")
+        xy, xz, yz = (value[f"COMPASS_ODI{number}_{axis}"] for axis in "XYZ")
+        found.append((numpy.array([[x, xy, xz], [xy, y, yz], [xz, yz, z]]),
+                      numpy.array([value[f"COMPASS_OFS{number}_{axis}"] for axis in "XYZ"])))
+    return found
+
+
 def expected(data):
     """{port: [(time in us, {key: value})]} with values of the manual's units, converted by hand."""
+    compasses = compass_parameters(data)
     found = collections.defaultdict(list)
     for name, row in records(data):
         if name == "IMU":
@@ -45,8 +64,9 @@ def expected(data):
                                                 "specific_force_m_s2": [row["AccX"], row["AccY"], row["AccZ"]]}))
         elif name == "MAG":
             port = "compass" if row["I"] == 0 else f"compass{row['I'] + 1}"
-            field = [row[axis] / 10 for axis in ("MagX", "MagY", "MagZ")]
-            found[port].append((row["TimeUS"], {"field_body_uT": field}))
+            matrix, offsets = compasses[row["I"]]
+            field = numpy.linalg.solve(matrix, [row[axis] for axis in ("MagX", "MagY", "MagZ")]) - offsets
+            found[port].append((row["TimeUS"], {"field_body_uT": list(field / 10)}))
         elif name == "ATT":
             angles = {key: math.radians(row[column] / 100)
                       for key, column in (("roll_rad", "Roll"), ("pitch_rad", "Pitch"), ("heading_rad", "Yaw"))}

@@ -85,7 +85,7 @@ TEST(Start, ABlueRov2IsListenedTo) {
   const std::string place = std::to_string(test::free_port());
   Started start("bluerov2", {"--address", "udp:127.0.0.1:" + place});
   const test::TemporaryFolder folder;
-  const Process autopilot({"python3", NAVCAL_SOURCE_DIR "/tests/end_to_end/autopilot.py", place, "600",
+  const Process autopilot({"node", NAVCAL_SOURCE_DIR "/tests/end_to_end/mavlink/autopilot.mjs", place, "600",
                            (folder / "truth.json").string()},
                           folder / "autopilot");
   ASSERT_TRUE(start.runs()) << start.said();
