@@ -156,11 +156,8 @@ Mission planned_readings(const config::VehicleSettings& vehicle, const config::M
       if (!read.sent) {
         pipeline.bytes(static_cast<std::uint16_t>(read.of), read.time_ns, read.bytes, gatherer);
       } else if (const auto command = protocols::motor_card::decode_command(read.bytes)) {
-        const double time_s = static_cast<double>(read.time_ns - kPlanBegin_ns) * 1e-9;
-        Order order{time_s, static_cast<double>(command->rpm), {}};
-        for (std::size_t i = 0; i < 3; ++i) order.fins_rad[i] = command->fins_deg[i] / 180 / std::numbers::pi;
-        orders.push_back(order);
-        commanded_s.push_back(time_s);
+        commanded_s.push_back(static_cast<double>(read.time_ns - kPlanBegin_ns) * 1e-9);
+        orders.push_back(order_of(*command, commanded_s.back()));
       }
     }
   }
