@@ -15,8 +15,6 @@ import subprocess
 import sys
 import tempfile
 
-import numpy
-
 SIZES = dict(a="64s", b="b", B="B", h="h", H="H", i="i", I="I", f="f", d="d", n="4s", N="16s", Z="64s", c="h", C="H", e="i",
              E="I", L="i", M="B", q="q", Q="Q")
 
@@ -37,6 +35,16 @@ def records(data):
         at += length
 
 
+def determinant(m):
+    return sum(m[0][i] * (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3]) for i in range(3))
+
+
+def solved(matrix, right):
+    """Three linear equations by Cramer's rule."""
+    replaced = [[row[:i] + [value] + row[i + 1 :] for row, value in zip(matrix, right)] for i in range(3)]
+    return [determinant(one) / determinant(matrix) for one in replaced]
+
+
 def compass_parameters(data):
     """Matrix and offsets (mGauss) of each compass: field = matrix (measured + offsets), where no motor and no scale has a part."""
     value = {}
@@ -48,8 +56,7 @@ def compass_parameters(data):
         assert value["COMPASS_MOTCT"] == 0 and value[f"COMPASS_SCALE{number}"] in (0, 1)
         x, y, z = (value[f"COMPASS_DIA{number}_{axis}"] for axis in "XYZ")
         xy, xz, yz = (value[f"COMPASS_ODI{number}_{axis}"] for axis in "XYZ")
-        found.append((numpy.array([[x, xy, xz], [xy, y, yz], [xz, yz, z]]),
-                      numpy.array([value[f"COMPASS_OFS{number}_{axis}"] for axis in "XYZ"])))
+        found.append(([[x, xy, xz], [xy, y, yz], [xz, yz, z]], [value[f"COMPASS_OFS{number}_{axis}"] for axis in "XYZ"]))
     return found
 
 
@@ -65,8 +72,9 @@ def expected(data):
         elif name == "MAG":
             port = "compass" if row["I"] == 0 else f"compass{row['I'] + 1}"
             matrix, offsets = compasses[row["I"]]
-            field = numpy.linalg.solve(matrix, [row[axis] for axis in ("MagX", "MagY", "MagZ")]) - offsets
-            found[port].append((row["TimeUS"], {"field_body_uT": list(field / 10)}))
+            measured = solved(matrix, [row[axis] for axis in ("MagX", "MagY", "MagZ")])
+            field = [(value - offset) / 10 for value, offset in zip(measured, offsets)]
+            found[port].append((row["TimeUS"], {"field_body_uT": field}))
         elif name == "ATT":
             angles = {key: math.radians(row[column] / 100)
                       for key, column in (("roll_rad", "Roll"), ("pitch_rad", "Pitch"), ("heading_rad", "Yaw"))}
