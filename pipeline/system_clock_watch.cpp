@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/system_clock_watch.h"
 
+#include <cmath>
 #include <cstdlib>
 
 namespace navcal::pipeline {

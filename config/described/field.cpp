@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "config/column_meaning.h"
 #include "config/described/description_file.h"

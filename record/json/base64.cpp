@@ -3,6 +3,8 @@
 
 #include <nettle/base64.h>
 
+#include <cstdint>
+
 namespace navcal::record {
 
 std::string base64(std::string_view bytes) {

@@ -2,6 +2,7 @@
 #include <navcal/pipeline.h>
 #include <navcal/recording.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "tests/api/api_program.h"

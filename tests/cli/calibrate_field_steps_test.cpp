@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of the field, through the programs that people run.
+#include <array>
+
 #include "tests/cli/calibrate_program.h"
 
 namespace navcal::cli::test {

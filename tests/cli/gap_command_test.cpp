@@ -2,6 +2,7 @@
 // The command around the diagnosis, which is made up here.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <deque>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 

@@ -3,6 +3,7 @@
 // replay of its log.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <memory>

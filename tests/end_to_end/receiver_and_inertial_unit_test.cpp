@@ -3,6 +3,7 @@
 // its log gives their samples when it is replayed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <memory>

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/fleet/fleet_folder.h"
 #include "tests/gap/simulated_mission.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever a client of Foxglove's protocol sends, between records, losses of the link and changes of topics: every
 // answer is well-formed, and nothing goes to a subscription that it does not have.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <set>

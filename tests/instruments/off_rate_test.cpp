@@ -2,6 +2,8 @@
 // Instruments that run off their nominal rate: errors of the stamps, and what is claimed of them.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tests/instruments/frame_stream.h"
 
 namespace navcal::instruments {

@@ -3,6 +3,7 @@
 // stated? docs/navigation.md quotes what these tests print.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <random>

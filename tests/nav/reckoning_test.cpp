@@ -2,6 +2,7 @@
 // Positions: gains by the schedule, what is learnt of the set, and whether the errors are as large as is said.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

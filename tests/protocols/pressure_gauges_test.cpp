@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "protocols/crc16.h"
 #include "tests/protocols/pressure_samples.h"

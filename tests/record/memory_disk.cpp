@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/record/memory_disk.h"
 
+#include <algorithm>
+
 #include "tests/record/memory_source.h"
 
 namespace navcal::record::testing {

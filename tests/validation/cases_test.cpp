@@ -8,6 +8,7 @@
 #include <map>
 #include <ostream>
 #include <set>
+#include <stdexcept>
 
 #include "validation/confounded_effects.h"
 #include "validation/missions.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "tests/validation/made_up_answers.h"
 #include "validation/confusion.h"

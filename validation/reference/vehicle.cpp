@@ -2,6 +2,7 @@
 #include "validation/reference/vehicle.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <numbers>
 
 namespace navcal::reference {

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <tuple>
 
 #include "record/log/checksum.h"
 #include "record/log/mcap_format.h"

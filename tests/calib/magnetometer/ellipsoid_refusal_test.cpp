@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "calib/magnetometer/ellipsoid_estimator.h"
 #include "tests/calib/magnetometer_paths.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "calib/suite/suite.h"
 #include "tests/calib/magnetometer_paths.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <tuple>
 
 #include "config/layout/layout_file.h"
 #include "sim/layout/assessment/assessment.h"

@@ -2,6 +2,7 @@
 // This reality against the reference paths and the check values of the vehicle.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 

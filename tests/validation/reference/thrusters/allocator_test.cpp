@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "tests/validation/reference/thrusters/shipped_plan.h"
 #include "validation/reference/thrusters/outputs.h"
 
