@@ -172,5 +172,24 @@ TEST(DescribedScannerOf, ALengthThatCannotBeIsNoFrame) {
   EXPECT_EQ(seen.frame_count + seen.bad_checksum + seen.held, 0U);
 }
 
+TEST(DescribedScannerOf, NothingIsCompletedBeforeTheBytesThatItMisses) {
+  for (const NamedDevice& device : all_devices()) {
+    Random random(3);
+    Buffer stream = text_bytes("\n");
+    for (int i = 0; i < 20; ++i) append(stream, random_frame(random, device.description));
+    DescribedRun run(scanner_of(device.description));
+    std::size_t promised = 0;
+    for (std::size_t i = 0; i < stream.size(); ++i) {
+      const std::size_t before = run.frames().size();
+      run.feed({&stream[i], 1});
+      if (run.frames().size() > before) {
+        EXPECT_GE(i + 1, promised) << device.name;
+      }
+      promised = run.parser().held() > 0 ? i + 1 + run.parser().missing() : 0;
+    }
+    EXPECT_EQ(run.frames().size(), 20U) << device.name;
+  }
+}
+
 }  // namespace
 }  // namespace navcal::protocols::described::test

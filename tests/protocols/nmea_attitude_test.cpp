@@ -146,5 +146,16 @@ TEST(NmeaDepth, OffsetOfTheTransducer) {
   EXPECT_FALSE(depth("SDDPT,,0.4,", Type::dpt)->depth_m);
 }
 
+TEST(NmeaAttitude, LimitsBelongToTheRange) {
+  for (const char* body : {"PRDID,90.0,180.0,360.0", "PRDID,-90.0,-180.0,0.0"})
+    EXPECT_TRUE(attitude(body)) << body;
+  for (const char* body : {"PRDID,90.1,0,0", "PRDID,-90.1,0,0", "PRDID,0,180.1,0", "PRDID,0,-180.1,0"})
+    EXPECT_FALSE(attitude(body)) << body;
+  const auto unsaid = attitude("PHTRO,,P,7.25,B");
+  ASSERT_TRUE(unsaid);
+  EXPECT_FALSE(unsaid->pitch_deg);
+  EXPECT_EQ(unsaid->roll_deg->value(), -7.25);
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test
