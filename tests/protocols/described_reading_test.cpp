@@ -308,5 +308,13 @@ TEST(DescribedUnits, AngularAndVectorMeaningsHaveRoomOnBothSides) {
   EXPECT_FALSE(holds(Meaning::heading, 2.1) || holds(Meaning::pitch, 1.1) || holds(Meaning::roll, 1.1));
 }
 
+TEST(DescribedReading, MinutesBesideTheEquatorAndTheMeridian) {
+  EXPECT_NEAR(number_of("0000.5000", Type::degrees_minutes).value_or(9), 0.5 / 60, 1e-12);
+  EXPECT_EQ(number_of("0000.0000", Type::degrees_minutes), 0);
+  EXPECT_NEAR(number_of("17959.9999", Type::degrees_minutes).value_or(0), 180 - 1e-4 / 60, 1e-9);
+  for (const char* text : {"-0000.5", "0060.0", "0099.9", "", "x"})
+    EXPECT_FALSE(number_of(text, Type::degrees_minutes)) << text;
+}
+
 }  // namespace
 }  // namespace navcal::protocols::described::test

@@ -191,5 +191,19 @@ TEST(DescribedScannerOf, NothingIsCompletedBeforeTheBytesThatItMisses) {
   }
 }
 
+TEST(DescribedScannerOf, AFrameThatStatesTooShortALengthIsNone) {
+  const Description device = two_kinds();
+  // The start, the length of two bytes and four of the checksum.
+  EXPECT_EQ(least_length(device.kinds[1]), 8U);
+  EXPECT_EQ(least_length(device.kinds[0]), device.kinds[0].length.fixed);
+  Buffer frame = encode(device, device.kinds[1], std::vector<double>{1, 2});
+  frame[2] = frame[3] = 0;  // six bytes
+  const Outcome seen = whole(device, frame);
+  EXPECT_EQ(seen.frame_count + seen.bad_checksum + seen.held, 0U);
+  DescribedRun run(scanner_of(device));
+  run.feed(Bytes(frame).first(2));
+  EXPECT_EQ(run.parser().missing(), 6U);
+}
+
 }  // namespace
 }  // namespace navcal::protocols::described::test

@@ -133,6 +133,9 @@ TEST(NmeaDepth, MetresAreTakenFirst) {
   EXPECT_EQ(depth("SDDBT,18.0,f,5.4,M,3.0,F", Type::dbt)->depth_m, 5.4);
   EXPECT_NEAR(depth("SDDBT,18.0,f,,M,3.0,F", Type::dbt)->depth_m.value(), 5.4864, 1e-12);
   EXPECT_NEAR(depth("SDDBT,,f,,M,3.0,F", Type::dbt)->depth_m.value(), 5.4864, 1e-12);
+  EXPECT_NEAR(depth("SDDBT,,f,,M,0.5,F", Type::dbt)->depth_m.value(), 0.9144, 1e-12) << "shallow water";
+  EXPECT_NEAR(depth("SDDBT,0.5,f,,M,,F", Type::dbt)->depth_m.value(), 0.1524, 1e-12);
+  EXPECT_EQ(depth("SDDBT,,f,0,M,,F", Type::dbt)->depth_m, 0);
   EXPECT_FALSE(depth("SDDBT,,f,,M,,F", Type::dbt)->depth_m);
   EXPECT_FALSE(depth("SDDBT,,f,-1,M,,F", Type::dbt));
 }

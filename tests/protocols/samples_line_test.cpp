@@ -288,5 +288,16 @@ TEST(SamplesLine, BoundsBelongToTheRange) {
   EXPECT_FALSE(fields.all_good());
 }
 
+TEST(SamplesLine, ABraceWithinATextIsNoOtherLine) {
+  EXPECT_EQ(names_of("{\"class\":\"SENSOR\",\"note\":\"a{b { }\"}\n"), (Names{"SENSOR"}));
+  EXPECT_EQ(names_of("{\"class\":\"SENSOR\",\"note\":\"{\n{\"class\":\"IMU\"}\n"), (Names{"IMU"}));
+}
+
+TEST(SamplesLine, ANumberThatMayBeAbsent) {
+  const std::string line =
+      LineWriter("X").number("there", std::optional(2.5)).number("not", std::nullopt).finish();
+  EXPECT_EQ(line, "{\"class\":\"X\",\"there\":2.5}\n");
+}
+
 }  // namespace
 }  // namespace navcal::protocols::samples_line
