@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/angles.h"
 #include "base/gravity.h"
@@ -202,6 +203,117 @@ TEST(DescribedReading, Hexadecimal) {
   EXPECT_EQ(number_of("0xFF", Type::hex), 255);
   EXPECT_EQ(number_of("-1", Type::hex), -1);
   EXPECT_FALSE(number_of("fg", Type::hex));
+}
+
+TEST(DescribedReading, EveryTypeInBothOrdersHoldsItsExtremes) {
+  const std::vector<std::pair<Type, std::vector<double>>> types{{Type::u8, {0, 255}},
+                                                                {Type::i8, {-128, 127}},
+                                                                {Type::u16, {0, 65535, 258}},
+                                                                {Type::i16, {-32768, 32767, 258}},
+                                                                {Type::u24, {0, 16777215, 66051}},
+                                                                {Type::i24, {-8388608, 8388607, 66051}},
+                                                                {Type::u32, {0, 4294967295.0, 16909060}},
+                                                                {Type::i32, {-2147483648.0, 2147483647, 16909060}},
+                                                                {Type::f32, {-1.5, 0.25, 3e38F}},
+                                                                {Type::f64, {-1.5, 0.1, 1e200}}};
+  for (const auto& [type, values] : types) {
+    for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
+      Description device = inertial_card();
+      FrameKind& kind = device.kinds[0];
+      kind.fields = {number_field("x", type, 4, order)};
+      for (const double value : values) {
+        EXPECT_EQ(plain_values(device, encode(device, kind, std::vector<double>{value}))[0], value)
+            << static_cast<int>(type);
+      }
+    }
+  }
+}
+
+TEST(DescribedReading, BitsWithinANumber) {
+  Description device = inertial_card();
+  FrameKind& kind = device.kinds[0];
+  for (const Type type : {Type::u8, Type::u16, Type::u24, Type::u32}) {
+    Field low = number_field("low", type, 4, ByteOrder::big), high = low;
+    low.bits = 3;
+    high.first_bit = 3;
+    high.bits = 5;
+    kind.fields = {low, high};
+    const std::vector<double> values{5, 27};
+    EXPECT_EQ(plain_values(device, encode(device, kind, values)), values) << static_cast<int>(type);
+  }
+}
+
+TEST(DescribedReading, EverySignThatAFieldMayState) {
+  FrameKind kind = bare_lines().kinds[0];
+  kind.fields.resize(1);
+  kind.fields[0].sign_at = 2;
+  const auto read_with = [&](const std::string& sign) {
+    bool possible = false;
+    const auto values = sample_values(kind, true, bytes_of("12.5," + sign + ",0\n"), possible);
+    return possible ? std::optional(values[0]) : std::nullopt;
+  };
+  for (const char* const sign : {"N", "E", "+", "", " N "}) EXPECT_EQ(read_with(sign), 12.5) << sign;
+  for (const char* const sign : {"S", "W", "-", " S"}) EXPECT_EQ(read_with(sign), -12.5) << sign;
+  for (const char* const sign : {"n", "NE", "0", "--"}) EXPECT_FALSE(read_with(sign)) << sign;
+}
+
+TEST(DescribedReading, AFieldWithAKeyIsFoundWhereverItStands) {
+  const FrameKind kind = keyed_lines().kinds[0];
+  const auto read_line = [&](const std::string& body) {
+    std::vector<double> values(kind.fields.size());
+    FrameReader(kind, true).read_plain(bytes_of("#" + body + "!0000;"), values);
+    return values;
+  };
+  const std::string sign(1, kind.key_sign);
+  EXPECT_EQ(read_line("T" + sign + "1.5 H" + sign + "ff"), (std::vector<double>{1.5, 255}));
+  EXPECT_EQ(read_line("H" + sign + "ff  X" + sign + "3 T" + sign + "1.5"), (std::vector<double>{1.5, 255}));
+  const auto without = read_line("TX" + sign + "1.5 H" + sign + "10");
+  EXPECT_TRUE(std::isnan(without[0])) << "a longer key is another one";
+  EXPECT_EQ(without[1], 16);
+}
+
+TEST(DescribedReading, LimitsOfTheFieldAndOfTheMeaningBelongToTheRange) {
+  FrameKind kind = bare_lines().kinds[0];
+  kind.fields.resize(1);
+  const auto is_possible = [&](double value) {
+    bool possible = false;
+    (void)sample_values(kind, true, bytes_of(std::to_string(value) + ",0,0\n"), possible);
+    return possible;
+  };
+  kind.fields[0].low = -2;
+  kind.fields[0].high = 3;
+  EXPECT_TRUE(is_possible(-2) && is_possible(3));
+  EXPECT_FALSE(is_possible(-2.001) || is_possible(3.001));
+  kind.fields[0].low.reset();
+  kind.fields[0].high.reset();
+  kind.fields[0].meaning = Meaning::pressure;
+  EXPECT_TRUE(is_possible(0) && is_possible(1e5));
+  EXPECT_FALSE(is_possible(-0.001)) << "below a vacuum";
+}
+
+TEST(DescribedUnits, AngularAndVectorMeaningsHaveRoomOnBothSides) {
+  for (std::size_t i = 0; i < kMeaningCount; ++i) {
+    const MeaningInfo& info = info_of(static_cast<Meaning>(i));
+    const bool is_vector = info.name.ends_with(".x") || info.name.ends_with(".y") || info.name.ends_with(".z");
+    if (is_vector || info.dimension == Dimension::angle) {
+      EXPECT_EQ(info.low, -info.high) << info.name;
+    }
+  }
+  const auto holds = [](Meaning meaning, double turns) {
+    const MeaningInfo& info = info_of(meaning);
+    return info.low <= 2 * std::numbers::pi * turns && 2 * std::numbers::pi * turns <= info.high;
+  };
+  EXPECT_TRUE(holds(Meaning::heading, 1) && holds(Meaning::pitch, 1) && holds(Meaning::roll, 1))
+      << "of any branch";
+  EXPECT_FALSE(holds(Meaning::heading, 2.1) || holds(Meaning::pitch, 1.1) || holds(Meaning::roll, 1.1));
+}
+
+TEST(DescribedReading, MinutesBesideTheEquatorAndTheMeridian) {
+  EXPECT_NEAR(number_of("0000.5000", Type::degrees_minutes).value_or(9), 0.5 / 60, 1e-12);
+  EXPECT_EQ(number_of("0000.0000", Type::degrees_minutes), 0);
+  EXPECT_NEAR(number_of("17959.9999", Type::degrees_minutes).value_or(0), 180 - 1e-4 / 60, 1e-9);
+  for (const char* text : {"-0000.5", "0060.0", "0099.9", "", "x"})
+    EXPECT_FALSE(number_of(text, Type::degrees_minutes)) << text;
 }
 
 }  // namespace

@@ -172,5 +172,38 @@ TEST(DescribedScannerOf, ALengthThatCannotBeIsNoFrame) {
   EXPECT_EQ(seen.frame_count + seen.bad_checksum + seen.held, 0U);
 }
 
+TEST(DescribedScannerOf, NothingIsCompletedBeforeTheBytesThatItMisses) {
+  for (const NamedDevice& device : all_devices()) {
+    Random random(3);
+    Buffer stream = text_bytes("\n");
+    for (int i = 0; i < 20; ++i) append(stream, random_frame(random, device.description));
+    DescribedRun run(scanner_of(device.description));
+    std::size_t promised = 0;
+    for (std::size_t i = 0; i < stream.size(); ++i) {
+      const std::size_t before = run.frames().size();
+      run.feed({&stream[i], 1});
+      if (run.frames().size() > before) {
+        EXPECT_GE(i + 1, promised) << device.name;
+      }
+      promised = run.parser().held() > 0 ? i + 1 + run.parser().missing() : 0;
+    }
+    EXPECT_EQ(run.frames().size(), 20U) << device.name;
+  }
+}
+
+TEST(DescribedScannerOf, AFrameThatStatesTooShortALengthIsNone) {
+  const Description device = two_kinds();
+  // The start, the length of two bytes and four of the checksum.
+  EXPECT_EQ(least_length(device.kinds[1]), 8U);
+  EXPECT_EQ(least_length(device.kinds[0]), device.kinds[0].length.fixed);
+  Buffer frame = encode(device, device.kinds[1], std::vector<double>{1, 2});
+  frame[2] = frame[3] = 0;  // six bytes
+  const Outcome seen = whole(device, frame);
+  EXPECT_EQ(seen.frame_count + seen.bad_checksum + seen.held, 0U);
+  DescribedRun run(scanner_of(device));
+  run.feed(Bytes(frame).first(2));
+  EXPECT_EQ(run.parser().missing(), 6U);
+}
+
 }  // namespace
 }  // namespace navcal::protocols::described::test

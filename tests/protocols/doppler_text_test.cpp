@@ -56,6 +56,10 @@ TEST(Pd6, LinesThatCannotBe) {
        {":BI,1,2,3,A\r\n", ":BI,1,2,3,x,A\r\n", ":BE,1,2,3,4,A\r\n", ":BE,,2,3,A\r\n"}) {
     EXPECT_FALSE(pd6::decode_velocity(bytes_of(text))) << text;
   }
+  for (const std::string_view fields : {"x,15.0,2.5,1500.1,000", "35.0,x,2.5,1500.1,000", "35.0,15.0,x,1500.1,000",
+                                        "35.0,15.0,2.5,x,000", "35.0,15.0,2.5,1500.1,0x", "35.0,15.0,2.5,1500.1"})
+    EXPECT_FALSE(pd6::decode_timing(bytes_of(":TS,16081317340100," + std::string(fields) + "\r\n"))) << fields;
+  EXPECT_FALSE(pd6::decode_timing(bytes_of(":TS,160813,35.0,15.0,2.5,1500.1,000\r\n"))) << "half a clock";
   const Outcome seen =
       all_at_once<pd6::Scanner>(bytes_of(":XX,1\r\n:BI;1\r\n:BI,\x01\r\n:SA,1,2,3\r\r:SA,1,2,3\n"));
   EXPECT_EQ(seen.frames.size(), 1U);

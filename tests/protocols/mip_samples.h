@@ -23,6 +23,7 @@ inline mip::Packet random_mip_packet(Random& random) {
   packet.set = chance(random) ? mip::kSensorSet : mip::kFilterSet;
   packet.reference_time_ns = perhaps(random, static_cast<std::uint64_t>(random()));
   packet.reference_delta_ns = perhaps(random, static_cast<std::uint64_t>(random()));
+  packet.delta_time_s = perhaps(random, random_float(random, 2));
   packet.gps_time = perhaps(random, mip::GpsTime{random_float(random, 6e5), 2300, chance(random), chance(random)});
   if (packet.set == mip::kSensorSet) {
     packet.acceleration_m_s2 = perhaps_triple(random, 9.80665);

@@ -160,5 +160,21 @@ TEST(Mip, CaptureByOthers) {
   EXPECT_EQ(with_attitude, 387U);
 }
 
+TEST(Mip, TheFieldsOfAPacketOneByOne) {
+  const auto frame = mip::encode_fields(0x0C, {{0xF1, {0x0E, 0}}, {0x8E, {0x80, 3, 0xE8}}, {0x77, {}}});
+  const auto fields = mip::fields_of(frame);
+  ASSERT_EQ(fields.size(), 3U);
+  EXPECT_EQ(fields[0].descriptor, 0xF1);
+  EXPECT_EQ(Buffer(fields[1].data.begin(), fields[1].data.end()), (Buffer{0x80, 3, 0xE8}));
+  EXPECT_EQ(fields[2].descriptor, 0x77);
+  EXPECT_TRUE(fields[2].data.empty());
+  for (const std::uint8_t length : {std::uint8_t{0}, std::uint8_t{1}, std::uint8_t{200}}) {
+    Buffer broken = frame;
+    broken[8] = length;
+    EXPECT_EQ(mip::fields_of(broken).size(), 1U) << "what follows a broken length is left";
+  }
+  EXPECT_TRUE(mip::fields_of({}).empty());
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

@@ -81,5 +81,12 @@ TEST(MotorCard, ADamagedLineIsCountedAndCostsOnlyItself) {
   EXPECT_EQ(seen.skipped_bytes, bad.size());
 }
 
+TEST(MotorCard, TheFourthByteDecides) {
+  EXPECT_EQ(parsed_card("$MCX").held, 0U);
+  EXPECT_EQ(parsed_card("$MCSX").held, 0U);
+  EXPECT_EQ(parsed_card("$MCS").held, 4U);
+  EXPECT_EQ(parsed_card("$MCC,").held, 5U);
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

@@ -133,6 +133,9 @@ TEST(NmeaDepth, MetresAreTakenFirst) {
   EXPECT_EQ(depth("SDDBT,18.0,f,5.4,M,3.0,F", Type::dbt)->depth_m, 5.4);
   EXPECT_NEAR(depth("SDDBT,18.0,f,,M,3.0,F", Type::dbt)->depth_m.value(), 5.4864, 1e-12);
   EXPECT_NEAR(depth("SDDBT,,f,,M,3.0,F", Type::dbt)->depth_m.value(), 5.4864, 1e-12);
+  EXPECT_NEAR(depth("SDDBT,,f,,M,0.5,F", Type::dbt)->depth_m.value(), 0.9144, 1e-12) << "shallow water";
+  EXPECT_NEAR(depth("SDDBT,0.5,f,,M,,F", Type::dbt)->depth_m.value(), 0.1524, 1e-12);
+  EXPECT_EQ(depth("SDDBT,,f,0,M,,F", Type::dbt)->depth_m, 0);
   EXPECT_FALSE(depth("SDDBT,,f,,M,,F", Type::dbt)->depth_m);
   EXPECT_FALSE(depth("SDDBT,,f,-1,M,,F", Type::dbt));
 }
@@ -144,6 +147,17 @@ TEST(NmeaDepth, OffsetOfTheTransducer) {
   EXPECT_EQ(dpt->offset_m->value(), -0.4);
   EXPECT_EQ(dpt->range_m->value(), 100);
   EXPECT_FALSE(depth("SDDPT,,0.4,", Type::dpt)->depth_m);
+}
+
+TEST(NmeaAttitude, LimitsBelongToTheRange) {
+  for (const char* body : {"PRDID,90.0,180.0,360.0", "PRDID,-90.0,-180.0,0.0"})
+    EXPECT_TRUE(attitude(body)) << body;
+  for (const char* body : {"PRDID,90.1,0,0", "PRDID,-90.1,0,0", "PRDID,0,180.1,0", "PRDID,0,-180.1,0"})
+    EXPECT_FALSE(attitude(body)) << body;
+  const auto unsaid = attitude("PHTRO,,P,7.25,B");
+  ASSERT_TRUE(unsaid);
+  EXPECT_FALSE(unsaid->pitch_deg);
+  EXPECT_EQ(unsaid->roll_deg->value(), -7.25);
 }
 
 }  // namespace

@@ -64,6 +64,9 @@ TEST(NmeaGga, EmptyFieldsAreAbsent) {
 TEST(NmeaGga, FixClaimsNoMoreThanTheSentenceShows) {
   const std::string place = "GPGGA,171245,5209.7838,N,02048.4819,E,";
   EXPECT_EQ(read(nmea::decode_gga, place + "1,03,5.3,76.6,M,,M,,")->fix(), Fix::fix_2d) << "height held";
+  EXPECT_EQ(read(nmea::decode_gga, place + "1,04,5.3,76.6,M,,M,,")->fix(), Fix::fix_3d) << "four suffice";
+  EXPECT_EQ(read(nmea::decode_gga, place + "1,,5.3,76.6,M,,M,,")->fix(), Fix::fix_3d)
+      << "their number is not said";
   EXPECT_EQ(read(nmea::decode_gga, place + "1,08,5.3,,M,,M,,")->fix(), Fix::fix_2d);
   EXPECT_EQ(read(nmea::decode_gga, place + "4,08,5.3,1,M,,M,,")->fix(), Fix::fix_3d);
   EXPECT_EQ(read(nmea::decode_gga, place + "6,08,5.3,1,M,,M,,")->fix(), Fix::propagated);
@@ -180,6 +183,10 @@ TEST(NmeaZda, TimeDateAndZone) {
   EXPECT_EQ(zda->date, (Date{2018, 8, 20}));
   EXPECT_EQ(zda->time, (TimeOfDay{9, 47, 37, 500'000'000}));
   EXPECT_EQ(zda->zone_min, -330);
+  EXPECT_EQ(read(nmea::decode_zda, "GPZDA,094737.5,20,08,2018,13,59")->zone_min, 839);
+  EXPECT_EQ(read(nmea::decode_zda, "GPZDA,094737.5,20,08,2018,-13,-59")->zone_min, -839);
+  for (const char* zone : {"14,00", "-14,00", "00,60", "00,-60"})
+    EXPECT_FALSE(read(nmea::decode_zda, std::string("GPZDA,094737.5,20,08,2018,") + zone)) << zone;
   EXPECT_FALSE(read(nmea::decode_zda, "GPZDA,094737,31,02,2018,00,00"));
   EXPECT_FALSE(read(nmea::decode_zda, "GPZDA,,,,,,")->date);
   EXPECT_FALSE(read(nmea::decode_zda, "GPZDA,,,,,1109.4,00")) << "no such zone";

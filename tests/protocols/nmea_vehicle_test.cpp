@@ -183,5 +183,47 @@ TEST(NmeaVehicle, TheOthersComeBack) {
   EXPECT_EQ(xdr->transducers[2].value->value(), 999.999);
 }
 
+// Each sentence with all of its fields, as the standard orders them.
+TEST(NmeaVehicle, WholeSentencesOfAPosition) {
+  nmea::StatedPosition sent;
+  sent.date = Date{2026, 11, 21};
+  sent.time = TimeOfDay{1, 2, 3, 450'000'000};
+  sent.fix = Fix::fix_3d;
+  sent.latitude_deg = -37.25;
+  sent.longitude_deg = 80.5;
+  sent.altitude_m = 12.34;
+  sent.geoid_separation_m = -30.25;
+  sent.speed_m_s = 1852.0 / 3600;
+  sent.course_deg = 90;
+  sent.variation_deg = -8.4;
+  sent.pdop = 2;
+  sent.hdop = 1.25;
+  sent.vdop = 1.5;
+  sent.satellites = 7;
+  sent.north_std_m = 1;
+  sent.east_std_m = 2;
+  sent.height_std_m = 3;
+  const auto body = [](auto append) {
+    std::string text;
+    append(text);
+    return text.substr(0, text.find('*'));
+  };
+  EXPECT_EQ(body([&](std::string& out) { append_gga(out, sent); }),
+            "$GPGGA,010203.45,3715.00000,S,08030.00000,E,1,07,1.25,12.3,M,-30.2,M,,");
+  EXPECT_EQ(body([&](std::string& out) { append_rmc(out, sent); }),
+            "$GPRMC,010203.45,A,3715.00000,S,08030.00000,E,1.00,90.00,211126,8.4,W,A");
+  EXPECT_EQ(body([&](std::string& out) { append_gst(out, sent); }), "$GPGST,010203.45,,,,,1.00,2.00,3.00");
+  const std::array<std::uint16_t, 2> used{3, 21};
+  EXPECT_EQ(body([&](std::string& out) { append_gsa(out, sent, used); }),
+            "$GPGSA,A,3,03,21,,,,,,,,,,,2.00,1.25,1.50");
+  sent.fix = Fix::fix_2d;
+  EXPECT_EQ(body([&](std::string& out) { append_gsa(out, sent, {}); }), "$GPGSA,A,2,,,,,,,,,,,,,2.00,1.25,1.50");
+  sent.fix = Fix::none;
+  EXPECT_EQ(body([&](std::string& out) { append_gsa(out, sent, {}); }).substr(0, 10), "$GPGSA,A,1");
+  EXPECT_EQ(body([](std::string& out) { nmea::append_dbt(out, 5.4); }), "$SDDBT,,f,5.40,M,,F");
+  EXPECT_EQ(body([](std::string& out) { nmea::append_vhw(out, 10, 20, 1); }),
+            "$VWVHW,10.00,T,20.00,M,1.94,N,3.60,K");
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

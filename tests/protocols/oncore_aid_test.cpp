@@ -5,6 +5,7 @@
 
 #include "protocols/oncore_command.h"
 #include "protocols/oncore_encode.h"
+#include "protocols/wire_fields.h"
 
 namespace navcal::protocols::test {
 namespace {
@@ -55,6 +56,25 @@ TEST(OncoreAid, WhatIsMalformedIsDroppedAndIsNoPoll) {
   // A query, whose fields are all FF.
   EXPECT_FALSE(oncore::parse_aid_position(oncore::encode_frame(oncore::kGa, std::vector<std::uint8_t>(13, 0xFF))));
   EXPECT_FALSE(oncore::parse_aid_time(oncore::encode_frame(oncore::kGb, std::vector<std::uint8_t>(10, 0xFF))));
+}
+
+TEST(OncoreAid, TheLastPlacesOfTheWorldAreTakenAndOneStepBeyondIsNot) {
+  constexpr std::int32_t kQuarter_mas = 324'000'000, kHalf_mas = 648'000'000, kLeast_cm = -100'000,
+                         kMost_cm = 1'800'000;
+  const auto is_taken = [](std::int32_t latitude_mas, std::int32_t longitude_mas, std::int32_t height_cm) {
+    std::vector<std::uint8_t> data;
+    for (const std::int32_t value : {latitude_mas, longitude_mas, height_cm}) append_be(data, value);
+    data.push_back(0);
+    return oncore::parse_aid_position(oncore::encode_frame(oncore::kGa, data)).has_value();
+  };
+  for (const int sign : {-1, 1}) {
+    EXPECT_TRUE(is_taken(sign * kQuarter_mas, 0, 0));
+    EXPECT_FALSE(is_taken(sign * (kQuarter_mas + 1), 0, 0));
+    EXPECT_TRUE(is_taken(0, sign * kHalf_mas, 0));
+    EXPECT_FALSE(is_taken(0, sign * (kHalf_mas + 1), 0));
+  }
+  EXPECT_TRUE(is_taken(0, 0, kLeast_cm) && is_taken(0, 0, kMost_cm));
+  EXPECT_FALSE(is_taken(0, 0, kLeast_cm - 1) || is_taken(0, 0, kMost_cm + 1));
 }
 
 }  // namespace

@@ -151,5 +151,20 @@ TEST(OncoreCommand, WhatIsMalformedIsDropped) {
   EXPECT_FALSE(oncore::parse_command(oncore::encode_frame(FrameId("Zz"), Buffer{1})));
 }
 
+TEST(OncoreMessages, EveryFieldOfTimeRaim) {
+  Buffer data(71, 0);
+  data[1] = 1;  // of UTC
+  data[3] = 2;  // method
+  data[4] = 0x80;
+  data[7] = 0x01;
+  const auto got = oncore::decode_hn(oncore::encode_frame(oncore::kHn, data));
+  ASSERT_TRUE(got);
+  EXPECT_FALSE(got->pulse_on);
+  EXPECT_TRUE(got->pulse_of_utc);
+  EXPECT_EQ(got->solution, oncore::TimeRaim::Solution::ok);
+  EXPECT_EQ(got->method, 2);
+  EXPECT_EQ(got->removed, 0x80000001U);
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

@@ -235,5 +235,24 @@ TEST(OncorePosition, OtherFramesAreNoPositions) {
   EXPECT_FALSE(oncore::decode_position(cut));
 }
 
+TEST(OncorePosition, EaStatesTheKindOfItsDilution) {
+  for (const auto& [fix, kind] : {std::pair{Fix::fix_2d, 1}, std::pair{Fix::fix_3d, 0}, std::pair{Fix::none, 0}}) {
+    Position sent;
+    sent.fix = fix;
+    EXPECT_EQ(oncore::encode_ea(sent)[37] & 0x3F, kind) << "horizontal on two dimensions";
+  }
+}
+
+TEST(OncorePosition, AnyChecksumOfTheAsciiPositionIsRead) {
+  std::string text = kAsciiPosition;
+  for (char ten = '0'; ten <= '9'; ++ten) {
+    for (char one = '0'; one <= '9'; ++one) {
+      text[9] = ten;
+      text[10] = one;
+      EXPECT_EQ(all_at_once<oncore::Scanner>(ascii_position(text)).frames.size(), 1U) << text;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

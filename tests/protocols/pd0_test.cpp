@@ -91,5 +91,25 @@ TEST(Pd0, CapturesByOthers) {
   }
 }
 
+TEST(Pd0, TheSystemWordOfTheFixedLeader) {
+  pd0::FixedLeader fixed;
+  EXPECT_FALSE(fixed.looks_up() || fixed.is_convex());
+  EXPECT_EQ(fixed.beam_angle_deg(), 15);
+  fixed.system = 0x0108;
+  EXPECT_TRUE(fixed.is_convex());
+  EXPECT_FALSE(fixed.looks_up());
+  EXPECT_EQ(fixed.beam_angle_deg(), 20);
+  fixed.system = 0x0280;
+  EXPECT_FALSE(fixed.is_convex());
+  EXPECT_TRUE(fixed.looks_up());
+  EXPECT_EQ(fixed.beam_angle_deg(), 30);
+  fixed.system = 0x0300;
+  EXPECT_FALSE(fixed.beam_angle_deg()) << "other, and the leader is too short to say which";
+  fixed.stated_beam_angle_deg = 25;
+  EXPECT_EQ(fixed.beam_angle_deg(), 25);
+  fixed.stated_beam_angle_deg = 90;
+  EXPECT_FALSE(fixed.beam_angle_deg());
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

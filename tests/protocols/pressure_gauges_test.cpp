@@ -141,5 +141,13 @@ TEST(Keller, EveryFlippedBitOfAnAnswerShows) {
   }
 }
 
+TEST(Paroscientific, WhatIsEncodedIsFoundByteForByte) {
+  EXPECT_EQ(text_of(paroscientific::encode_line({1, 0}, "P4")), "*0100P4\r\n");
+  EXPECT_EQ(text_of(paroscientific::encode_line({98, 76}, "14.7")), "*987614.7\r\n");
+  const Outcome seen = all_at_once<paroscientific::Scanner>(paroscientific::encode_line({98, 76}, "14.7"));
+  ASSERT_EQ(seen.frames.size(), 1U);
+  EXPECT_EQ(paroscientific::address_of(seen.frames[0].bytes), (paroscientific::Address{98, 76}));
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

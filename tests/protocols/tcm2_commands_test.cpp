@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <tuple>
+
 #include "protocols/tcm2_word.h"
 #include "tests/protocols/stream.h"
 #include "tests/protocols/text.h"
@@ -82,6 +85,20 @@ TEST(Tcm2Commands, LinesOfAHostAreCutAtCarriageReturns) {
   EXPECT_EQ(text_of(seen.frames[2].bytes), "clock=10\r");
   EXPECT_EQ(text_of(seen.frames[3].bytes), "go\r");
   EXPECT_EQ(seen.held, 2U);
+}
+
+TEST(Tcm2Commands, TheLeastAndTheGreatestNumberAreTaken) {
+  for (const auto& [parameter, name, least, greatest] :
+       {std::tuple{Parameter::baud, "b", 0, 8}, std::tuple{Parameter::clock, "clock", 5, 40},
+        std::tuple{Parameter::sample_period, "sp", 1, 255}}) {
+    const std::string head = std::string(name) + "=";
+    for (const int number : {least, greatest})
+      EXPECT_EQ(parse_command(head + std::to_string(number)),
+                (std::variant<Command, Refusal>(set(parameter, number))));
+    for (const int number : {least - 1, greatest + 1})
+      EXPECT_EQ(parse_command(head + std::to_string(number)),
+                (std::variant<Command, Refusal>(Refusal{tcm2::error::kBadParameter})));
+  }
 }
 
 }  // namespace

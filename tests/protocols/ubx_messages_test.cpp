@@ -181,5 +181,111 @@ TEST(UbxMessages, ValuesOfACaptureByOthers) {
   EXPECT_EQ(lists, 28U);
 }
 
+/// Writes a number of the machine, which is little endian as the wire.
+template <class T>
+void lay(Buffer& payload, std::size_t at, T value) {
+  std::memcpy(&payload[at], &value, sizeof value);
+}
+
+TEST(UbxMessages, TheHighRateFixHasThePlaceOfTheOrdinaryOne) {
+  Buffer payload(72);
+  lay<std::uint32_t>(payload, 0, 123'456'000);
+  lay<std::uint16_t>(payload, 4, 2026);
+  payload[6] = 11;
+  payload[7] = 21;
+  payload[8] = 12;
+  payload[9] = 34;
+  payload[10] = 56;
+  payload[11] = 3;
+  lay<std::int32_t>(payload, 12, -5);
+  payload[16] = 3;
+  payload[17] = 1;
+  lay<std::int32_t>(payload, 20, -800'000'000);
+  lay<std::int32_t>(payload, 24, 370'000'000);
+  lay<std::int32_t>(payload, 28, 1500);
+  lay<std::int32_t>(payload, 32, -2500);
+  lay<std::int32_t>(payload, 36, 1250);
+  lay<std::int32_t>(payload, 44, 9'000'000);
+  lay<std::uint32_t>(payload, 52, 700);
+  lay<std::uint32_t>(payload, 56, 900);
+  lay<std::uint32_t>(payload, 60, 50);
+  const auto pvt = ubx::decode_hnr_pvt(ubx::encode_frame(ubx::kHnrPvt, payload));
+  ASSERT_TRUE(pvt);
+  EXPECT_EQ(pvt->time_of_week_ms, 123'456'000U);
+  EXPECT_EQ(pvt->date, (Date{2026, 11, 21}));
+  EXPECT_EQ(pvt->second, 56);
+  EXPECT_EQ(pvt->nanosecond, -5);
+  EXPECT_TRUE(pvt->date_valid && pvt->time_valid && !pvt->fully_resolved);
+  EXPECT_EQ(pvt->fix(), Fix::fix_3d);
+  EXPECT_NEAR(pvt->longitude_deg, -80, 1e-9);
+  EXPECT_NEAR(pvt->latitude_deg, 37, 1e-9);
+  EXPECT_NEAR(pvt->height_m, 1.5, 1e-9);
+  EXPECT_NEAR(pvt->height_msl_m, -2.5, 1e-9);
+  EXPECT_NEAR(pvt->ground_speed_m_s, 1.25, 1e-9);
+  EXPECT_NEAR(pvt->heading_of_motion_deg, 90, 1e-9);
+  EXPECT_NEAR(pvt->horizontal_accuracy_m, 0.7, 1e-9);
+  EXPECT_NEAR(pvt->vertical_accuracy_m, 0.9, 1e-9);
+  EXPECT_NEAR(pvt->speed_accuracy_m_s, 0.05, 1e-9);
+  EXPECT_FALSE(ubx::decode_hnr_pvt(ubx::encode_frame(ubx::kHnrPvt, Buffer(40))));
+  EXPECT_FALSE(ubx::decode_hnr_pvt(ubx::encode_frame(ubx::kNavPvt, payload)));
+}
+
+TEST(UbxMessages, AnglesAndTheirAccuracies) {
+  Buffer payload(32);
+  for (std::size_t i = 0; i < 3; ++i) {
+    lay<std::int32_t>(payload, 8 + 4 * i, (static_cast<std::int32_t>(i) - 1) * 1'000'000);
+    lay<std::uint32_t>(payload, 20 + 4 * i, 50'000 * (static_cast<std::uint32_t>(i) + 1));
+  }
+  for (const ubx::MessageCode code : {ubx::kNavAtt, ubx::kHnrAtt}) {
+    const auto attitude = ubx::decode_attitude(ubx::encode_frame(code, payload));
+    ASSERT_TRUE(attitude);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(attitude->angles_deg.at(i), 10 * (static_cast<double>(i) - 1), 1e-9);
+      EXPECT_NEAR(attitude->accuracies_deg.at(i), 0.5 * (static_cast<double>(i) + 1), 1e-9);
+    }
+  }
+  EXPECT_FALSE(ubx::decode_attitude(ubx::encode_frame(ubx::kNavAtt, Buffer(31))));
+}
+
+TEST(UbxMessages, ABaselineIsValidByItsFlags) {
+  constexpr std::uint32_t kFixOk = 1, kRelative = 4, kHeading = 0x100, kNormalized = 0x200;
+  const auto with_flags = [](std::uint8_t version, std::uint32_t flags) {
+    Buffer payload(version == 0 ? 40 : 64);
+    payload[0] = version;
+    const std::size_t fine = version == 0 ? 20 : 32, accuracy = version == 0 ? 24 : 36;
+    for (std::size_t i = 0; i < 3; ++i) {
+      lay<std::int32_t>(payload, 8 + 4 * i, 100 * (static_cast<std::int32_t>(i) - 1));
+      payload[fine + i] = static_cast<std::uint8_t>(-50);
+      lay<std::uint32_t>(payload, accuracy + 4 * i, 120);
+    }
+    if (version != 0) {
+      lay<std::int32_t>(payload, 24, 12'345'678);
+      lay<std::uint32_t>(payload, 52, 40'000);
+    }
+    lay<std::uint32_t>(payload, version == 0 ? 36 : 60, flags);
+    return *ubx::decode_nav_relposned(ubx::encode_frame(ubx::kNavRelPosNed, payload));
+  };
+  for (const std::uint8_t version : {std::uint8_t{0}, std::uint8_t{1}}) {
+    const auto good = with_flags(version, kFixOk | kRelative | kHeading);
+    EXPECT_TRUE(good.position_valid);
+    EXPECT_NEAR(good.position_ned_m[0], -1.005, 1e-9);
+    EXPECT_NEAR(good.position_ned_m[2], 0.995, 1e-9);
+    EXPECT_NEAR(good.accuracies_m[1], 0.012, 1e-9);
+    for (const std::uint32_t flags : {0U, kFixOk, kRelative, kFixOk | kRelative | kNormalized})
+      EXPECT_FALSE(with_flags(version, flags).position_valid) << flags;
+  }
+  EXPECT_NEAR(with_flags(1, kFixOk | kRelative | kHeading).line.angles_deg[2], 123.45678, 1e-9);
+  EXPECT_NEAR(with_flags(1, kFixOk | kRelative | kHeading).line.accuracies_deg[2], 0.4, 1e-9);
+  for (const auto& without : {with_flags(1, kFixOk | kRelative), with_flags(1, kHeading),
+                              with_flags(0, kFixOk | kRelative | kHeading)}) {
+    EXPECT_EQ(without.line.angles_deg[2], 0);
+    EXPECT_EQ(without.line.accuracies_deg[2], 0) << "no angle";
+  }
+  EXPECT_FALSE(ubx::decode_nav_relposned(ubx::encode_frame(ubx::kNavRelPosNed, Buffer(39))));
+  Buffer cut(40);
+  cut[0] = 1;
+  EXPECT_FALSE(ubx::decode_nav_relposned(ubx::encode_frame(ubx::kNavRelPosNed, cut)));
+}
+
 }  // namespace
 }  // namespace navcal::protocols::test

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstring>
+#include <vector>
 
 #include "protocols/crc16.h"
 #include "protocols/vectornav_lines.h"
@@ -140,6 +141,40 @@ TEST(VectorNav, FramesDoNotDependOnTheCuts) {
   EXPECT_TRUE(every_cut_gives_a_prefix<vectornav::Scanner>(stream));
   EXPECT_TRUE(
       every_flipped_bit_shows<vectornav::Scanner>(vectornav::encode_binary(random_vectornav_reading(random))));
+}
+
+// Bytes of each field as the manual lists them; behind the last one of a group are reserved bits.
+TEST(VectorNav, EveryFieldHasItsSizeAndReservedBitsAreNoMessage) {
+  const std::vector<std::vector<std::size_t>> sizes{{8, 8, 8, 12, 16, 12, 24, 12, 12, 24, 20, 28, 2, 4, 8},
+                                                    {8, 8, 8, 2, 8, 8, 8, 4, 4, 1},
+                                                    {2, 12, 12, 12, 4, 4, 16, 12, 12, 12, 12, 2},
+                                                    {8, 8, 2, 1, 1, 24, 24, 12, 12, 12, 4, 4, 2, 28},
+                                                    {2, 12, 16, 36, 12, 12, 12, 12, 12},
+                                                    {2, 24, 24, 12, 12, 12, 12, 12, 12, 4, 4},
+                                                    {8, 8, 2, 1, 1, 24, 24, 12, 12, 12, 4, 4, 2, 28}};
+  for (std::size_t group = 0; group < sizes.size(); ++group) {
+    for (unsigned bit = 0; bit < 16; ++bit) {
+      const unsigned word = 1U << bit;
+      const Buffer head{0xFA, static_cast<std::uint8_t>(1U << group), static_cast<std::uint8_t>(word),
+                        static_cast<std::uint8_t>(word >> 8)};
+      const bool is_known = bit < sizes[group].size();
+      const Buffer frame = message(head, is_known ? sizes[group][bit] : 1);
+      EXPECT_EQ(all_at_once<vectornav::Scanner>(frame).frames.size(), is_known ? 1U : 0U) << group << ' ' << bit;
+    }
+  }
+}
+
+TEST(VectorNav, ALineHasTheFieldsOfItsNameAlone) {
+  vectornav::Reading reading;
+  reading.yaw_pitch_roll_deg = {100.5, -2.25, 0.5};
+  reading.field_uT = {-5, 107, 174};
+  reading.acceleration_m_s2 = {-0.25, -0.5, -9.75};
+  reading.rate_rad_s = {0.125, -0.25, 0.5};
+  const auto again = vectornav::decode_line(vectornav::encode_line(reading));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->yaw_pitch_roll_deg, reading.yaw_pitch_roll_deg);
+  EXPECT_EQ(again->acceleration_m_s2, reading.acceleration_m_s2);
+  EXPECT_EQ(again->rate_rad_s, reading.rate_rad_s);
 }
 
 }  // namespace
