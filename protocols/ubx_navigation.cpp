@@ -153,6 +153,7 @@ std::optional<NavPvt> decode_hnr_pvt(Bytes frame) {
 }
 
 std::optional<NavAttitude> decode_attitude(Bytes frame) {
+  if (frame.size() < kOverhead) return std::nullopt;
   const auto payload = payload_if(frame, get_be<MessageCode>(frame.data() + 2), kAttitudeLength);
   if (!payload) return std::nullopt;
   NavAttitude attitude;

@@ -245,6 +245,7 @@ TEST(UbxMessages, AnglesAndTheirAccuracies) {
     }
   }
   EXPECT_FALSE(ubx::decode_attitude(ubx::encode_frame(ubx::kNavAtt, Buffer(31))));
+  EXPECT_FALSE(ubx::decode_attitude(Buffer{0xB5}));
 }
 
 TEST(UbxMessages, ABaselineIsValidByItsFlags) {
