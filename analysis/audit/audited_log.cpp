@@ -111,11 +111,26 @@ void read_samples(AuditedLog& log, const std::string& file, const record::TimeWi
   log.remarks.insert(log.remarks.end(), run.remarks().begin(), run.remarks().end());
 }
 
-void calibrate(AuditedLog& log, AuditedCalibration& into, const std::string& file,
-               const record::TimeWindow& window, const KeepGoing& keep_going, std::string_view part) {
+/// Takes the field of the motor off the readings that the findings are made from.
+void subtract_motor(const AuditedLog& log, AuditedCalibration& from, const Eigen::Vector3d& slope_uT_per_A) {
+  constexpr double kMostApart_s = 1;
+  const auto currents = log.all("current");
+  if (currents.empty()) return;
+  for (TurnedSample& sample : from.samples) {
+    const double time_s = base::seconds(sample.reading.utc_ns - log.begin_utc_ns);
+    const auto current_A = value_at(currents.front()->series, time_s, kMostApart_s);
+    if (sample.reading.field_body_uT && current_A) *sample.reading.field_body_uT -= *current_A * slope_uT_per_A;
+  }
+}
+
+/// `state`: in which the field of the motor is in force, or empty. The same is returned.
+std::string calibrate(AuditedLog& log, AuditedCalibration& into, const std::string& file,
+                      const record::TimeWindow& window, const KeepGoing& keep_going, std::string_view part,
+                      const std::string& state) {
   const auto settings = record::Recording::open(file)->settings();
   CalibrateHistory history(settings);
   CalibrateRun run(settings, &history);
+  if (!state.empty()) run.begin_with(state);
   try {
     run.play(
         file,
@@ -128,6 +143,9 @@ void calibrate(AuditedLog& log, AuditedCalibration& into, const std::string& fil
   }
   into.report = run.finish();
   into.samples = history.samples();
+  if (const auto& motor = into.report.in_force.motor_current; motor && !state.empty())
+    subtract_motor(log, into, motor->slope_uT_per_A);
+  return run.state_with(calib::Calibrator::motor_current);
 }
 
 /// The windows of the two halves of a window.
@@ -217,10 +235,13 @@ AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;
   if (request.also && !log.is_partial) request.also(file);
   if (log.is_partial || log.compass.empty()) return log;
-  calibrate(log, log.whole, file, request.window, keep_going, "calibrating");
+  const auto state = calibrate(log, log.whole, file, request.window, keep_going, "calibrating", {});
+  // The field of a steady current is no iron: where the motor's field is known, the rest is learned without it.
+  if (!state.empty() && !log.is_partial)
+    (void)calibrate(log, log.whole, file, request.window, keep_going, "calibrating without the motor", state);
   const auto halves = halves_of(log, request.window);
   for (std::size_t i = 0; i < halves.size() && !log.is_partial; ++i)
-    calibrate(log, log.halves.at(i), file, halves.at(i), keep_going, "judging");
+    (void)calibrate(log, log.halves.at(i), file, halves.at(i), keep_going, "judging", state);
   return log;
 }
 
