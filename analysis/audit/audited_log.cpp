@@ -25,7 +25,7 @@ struct ReadingEnded {};
 class AuditSink final : public ReplaySink {
  public:
   explicit AuditSink(AuditedLog& log, const config::Settings& settings)
-      : log_(log), settings_(settings), sources_(settings) {}
+      : log_(log), settings_(settings), sources_(settings), earth_(settings.environment) {}
 
   void on_sample(const instruments::Sample& sample) override {
     channels_.on_sample(sample);
@@ -33,8 +33,8 @@ class AuditSink final : public ReplaySink {
     if (!begin_ns_) begin_ns_ = sample.stamp.validity_ns;
     const double time_s = base::seconds(sample.stamp.validity_ns - *begin_ns_);
     std::visit([&](const auto& value) { take(value, sample.port, time_s); }, sample.value);
+    if (const auto* const gps = std::get_if<instruments::GpsSample>(&sample.value)) take_fix(*gps, sample.stamp);
   }
-  void on_earth_field(const pipeline::EarthField& field) override { log_.earth = field; }
 
   void finish() {
     log_.duration_s = channels_.duration_s();
@@ -61,6 +61,11 @@ class AuditSink final : public ReplaySink {
     double since_s = 0;  ///< of the newest value
   };
 
+  /// An imported fix states no UTC of its own.
+  void take_fix(instruments::GpsSample fix, const instruments::Stamp& stamp) {
+    if (!fix.time_utc_ns) fix.time_utc_ns = stamp.validity_utc_ns;
+    if (earth_.take(fix)) log_.earth = earth_.field();
+  }
   template <class Value>
   void take(const Value& value, std::uint16_t port, double time_s) {
     if constexpr (!std::is_same_v<Value, instruments::SkySample>) {
@@ -86,6 +91,7 @@ class AuditSink final : public ReplaySink {
   AuditedLog& log_;
   const config::Settings& settings_;
   pipeline::Sources sources_;
+  pipeline::EarthFieldWatch earth_;
   ChannelCollector channels_;
   std::optional<std::int64_t> begin_ns_;
   std::map<std::pair<std::uint16_t, std::string_view>, OpenStream> streams_;
@@ -145,7 +151,9 @@ std::string calibrate(AuditedLog& log, AuditedCalibration& into, const std::stri
   into.samples = history.samples();
   if (const auto& motor = into.report.in_force.motor_current; motor && !state.empty())
     subtract_motor(log, into, motor->slope_uT_per_A);
-  return run.state_with(calib::Calibrator::motor_current);
+  const auto* const motor = into.report.find(calib::Calibrator::motor_current);
+  const bool is_told = motor != nullptr && motor->outcome == calib::Outcome::accepted;
+  return is_told ? run.state_with(calib::Calibrator::motor_current) : std::string();
 }
 
 /// The windows of the two halves of a window.

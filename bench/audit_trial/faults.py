@@ -23,6 +23,7 @@ class Fault:
     plant: object = None  # (log, size, dice, truth) -> value of the finding, or None
     value: object = None  # (size, made, truth) -> the same, for effects
     also: tuple = ()
+    also_likely: tuple = ()  # true of the log where they are called likely: their text names this fault
     forms: tuple = ALL
     needs: tuple = ()  # "reference", "dvl", "pair", "declination"
 
@@ -242,7 +243,8 @@ FAULTS = [
     Fault("hard iron", "compass", ("compass.iron",), (4, 10, 25), hard_iron, value=iron_value, also=(ITS_HEADING,)),
     Fault("soft iron", "compass", ("compass.iron",), (0.06, 0.12, 0.25), soft_iron, value=soft_value, also=(ITS_HEADING,)),
     Fault("field of the motor", "compass", ("compass.motor",), (0.5, 1, 2), motor_field,
-          value=lambda size, k, truth: size, also=(ITS_HEADING,), forms=("capture", "dataflash", "ulog"), needs=("reference",)),
+          value=lambda size, k, truth: size, also=(ITS_HEADING,), also_likely=("compass.iron",),
+          forms=("capture", "dataflash", "ulog"), needs=("reference",)),
     Fault("step of the field", "compass", ("compass.step",), (4, 8, 16), field_step,
           value=lambda size, b, truth: size, also=(ITS_HEADING, "compass.iron")),
     Fault("scale of the gyro", "gyro", ("gyro.scale",), (0.04, 0.08, 0.16), gyro_scale, value=lambda size, k, truth: 1 / (1 + k)),
@@ -270,7 +272,8 @@ FAULTS = [
     Fault("declination twice", "heading", ("convention.declination_twice", ITS_HEADING), (1, 1, 1), plant=declination_twice,
           forms=("dataflash", "ulog", "tlog"), needs=("declination",)),
     Fault("two compasses apart", "pair", ("compass.pair",), (10, 20, 40), plant=compass_pair, needs=("pair",)),
-    Fault("unit of the field", "compass", ("compass.size",), (10, 0.1, 0.01), plant=field_unit),
+    Fault("unit of the field", "compass", ("compass.size",), (10, 0.1, 0.01), plant=field_unit,
+          also=("sampling.repeated", "sampling.gaps", "sampling.irregular")),  # the steps of the format hide changes
     Fault("axes of the field", "compass", ("compass.iron", "compass.axes", "convention.field"), (1, 2, 3), plant=field_axes, also=(ITS_HEADING, "compass.pair")),
 ]
 BY_NAME = {fault.name: fault for fault in FAULTS}
