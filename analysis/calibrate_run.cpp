@@ -122,4 +122,16 @@ calib::Report CalibrateRun::finish() {
   return pipeline_->calibration_report();
 }
 
+std::string CalibrateRun::state_with(calib::Calibrator calibrator) {
+  using Order = pipeline::CalibrationOrder;
+  if (!pipeline_->order_calibration(Order::accept, calibrator, newest_ns_, sink_).empty()) return {};
+  for (const auto other : calib::calibrators())
+    pipeline_->order_calibration(Order::start, other, newest_ns_, sink_);
+  return pipeline_->calibration_beginning(newest_ns_).state;
+}
+
+void CalibrateRun::begin_with(const std::string& state) {
+  if (pipeline_->restore_calibration(state)) pipeline_->begin_calibration_run();
+}
+
 }  // namespace navcal::analysis

@@ -34,6 +34,12 @@ class CalibrateRun {
   /// No more files come.
   [[nodiscard]] calib::Report finish();
 
+  /// After finish(): a state in which this calibrator's estimate is in force and nothing is learned yet; empty
+  /// where the estimate is refused.
+  [[nodiscard]] std::string state_with(calib::Calibrator calibrator);
+  /// Before the first file: begins with a state of state_with().
+  void begin_with(const std::string& state);
+
   [[nodiscard]] const config::Settings& settings() const { return settings_; }
   /// Duration of all files, without the pauses between them.
   [[nodiscard]] double duration_s() const { return static_cast<double>(duration_ns_) * 1e-9; }

@@ -46,7 +46,7 @@ RoleSet roles_of(const instruments::GpsSample& gps) {
 
 RoleSet roles_of(const instruments::MotorSample& motor) {
   RoleSet roles;
-  if (motor.rpm) roles.add(Role::shaft);
+  if (motor.rpm || motor.current_A) roles.add(Role::shaft);
   return roles;
 }
 

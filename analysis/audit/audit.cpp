@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <iterator>
@@ -80,12 +81,34 @@ std::vector<AuditChange> Audit::changes() const {
   return changes;
 }
 
+namespace {
+
+/// What follows from the rates is not said where a convention says that they are wrong: it is one cause.
+void leave_out_consequences(std::vector<Finding>& findings) {
+  const auto is_of_rates = [](const Finding& finding) {
+    return finding.name.starts_with("convention.") &&
+           (finding.channel.starts_with("rate") || finding.channel == "body");
+  };
+  const auto broken = std::find_if(findings.begin(), findings.end(), is_of_rates);
+  if (broken == findings.end()) return;
+  const std::string why = "The rates are not what they should be: " + broken->sentence + ".";
+  for (Finding& finding : findings) {
+    const bool follows = std::ranges::any_of(
+        std::array{"gyro.bias", "gyro.scale", "compass.step", "compass.motor", "compass.iron", "delay."},
+        [&](std::string_view start) { return finding.name.starts_with(start); });
+    if (follows) finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, broken->todo);
+  }
+}
+
+}  // namespace
+
 AuditedFile audited(const AuditedLog& log, std::vector<Finding> more) {
   AuditedFile file{log.file, log.duration_s, log.speed_m_s(), log.is_partial, log.remarks, std::move(more)};
   for (const auto group : {sampling_findings, compass_findings, inertial_findings, water_findings}) {
     auto findings = group(log);
     std::move(findings.begin(), findings.end(), std::back_inserter(file.findings));
   }
+  leave_out_consequences(file.findings);
   sort_findings(file.findings);
   return file;
 }

@@ -25,7 +25,7 @@ struct ReadingEnded {};
 class AuditSink final : public ReplaySink {
  public:
   explicit AuditSink(AuditedLog& log, const config::Settings& settings)
-      : log_(log), settings_(settings), sources_(settings) {}
+      : log_(log), settings_(settings), sources_(settings), earth_(settings.environment) {}
 
   void on_sample(const instruments::Sample& sample) override {
     channels_.on_sample(sample);
@@ -33,8 +33,8 @@ class AuditSink final : public ReplaySink {
     if (!begin_ns_) begin_ns_ = sample.stamp.validity_ns;
     const double time_s = base::seconds(sample.stamp.validity_ns - *begin_ns_);
     std::visit([&](const auto& value) { take(value, sample.port, time_s); }, sample.value);
+    if (const auto* const gps = std::get_if<instruments::GpsSample>(&sample.value)) take_fix(*gps, sample.stamp);
   }
-  void on_earth_field(const pipeline::EarthField& field) override { log_.earth = field; }
 
   void finish() {
     log_.duration_s = channels_.duration_s();
@@ -61,6 +61,11 @@ class AuditSink final : public ReplaySink {
     double since_s = 0;  ///< of the newest value
   };
 
+  /// An imported fix states no UTC of its own.
+  void take_fix(instruments::GpsSample fix, const instruments::Stamp& stamp) {
+    if (!fix.time_utc_ns) fix.time_utc_ns = stamp.validity_utc_ns;
+    if (earth_.take(fix)) log_.earth = earth_.field();
+  }
   template <class Value>
   void take(const Value& value, std::uint16_t port, double time_s) {
     if constexpr (!std::is_same_v<Value, instruments::SkySample>) {
@@ -86,6 +91,7 @@ class AuditSink final : public ReplaySink {
   AuditedLog& log_;
   const config::Settings& settings_;
   pipeline::Sources sources_;
+  pipeline::EarthFieldWatch earth_;
   ChannelCollector channels_;
   std::optional<std::int64_t> begin_ns_;
   std::map<std::pair<std::uint16_t, std::string_view>, OpenStream> streams_;
@@ -111,11 +117,26 @@ void read_samples(AuditedLog& log, const std::string& file, const record::TimeWi
   log.remarks.insert(log.remarks.end(), run.remarks().begin(), run.remarks().end());
 }
 
-void calibrate(AuditedLog& log, AuditedCalibration& into, const std::string& file,
-               const record::TimeWindow& window, const KeepGoing& keep_going, std::string_view part) {
+/// Takes the field of the motor off the readings that the findings are made from.
+void subtract_motor(const AuditedLog& log, AuditedCalibration& from, const Eigen::Vector3d& slope_uT_per_A) {
+  constexpr double kMostApart_s = 1;
+  const auto currents = log.all("current");
+  if (currents.empty()) return;
+  for (TurnedSample& sample : from.samples) {
+    const double time_s = base::seconds(sample.reading.utc_ns - log.begin_utc_ns);
+    const auto current_A = value_at(currents.front()->series, time_s, kMostApart_s);
+    if (sample.reading.field_body_uT && current_A) *sample.reading.field_body_uT -= *current_A * slope_uT_per_A;
+  }
+}
+
+/// `state`: in which the field of the motor is in force, or empty. The same is returned.
+std::string calibrate(AuditedLog& log, AuditedCalibration& into, const std::string& file,
+                      const record::TimeWindow& window, const KeepGoing& keep_going, std::string_view part,
+                      const std::string& state) {
   const auto settings = record::Recording::open(file)->settings();
   CalibrateHistory history(settings);
   CalibrateRun run(settings, &history);
+  if (!state.empty()) run.begin_with(state);
   try {
     run.play(
         file,
@@ -128,6 +149,11 @@ void calibrate(AuditedLog& log, AuditedCalibration& into, const std::string& fil
   }
   into.report = run.finish();
   into.samples = history.samples();
+  if (const auto& motor = into.report.in_force.motor_current; motor && !state.empty())
+    subtract_motor(log, into, motor->slope_uT_per_A);
+  const auto* const motor = into.report.find(calib::Calibrator::motor_current);
+  const bool is_told = motor != nullptr && motor->outcome == calib::Outcome::accepted;
+  return is_told ? run.state_with(calib::Calibrator::motor_current) : std::string();
 }
 
 /// The windows of the two halves of a window.
@@ -217,10 +243,13 @@ AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;
   if (request.also && !log.is_partial) request.also(file);
   if (log.is_partial || log.compass.empty()) return log;
-  calibrate(log, log.whole, file, request.window, keep_going, "calibrating");
+  const auto state = calibrate(log, log.whole, file, request.window, keep_going, "calibrating", {});
+  // The field of a steady current is no iron: where the motor's field is known, the rest is learned without it.
+  if (!state.empty() && !log.is_partial)
+    (void)calibrate(log, log.whole, file, request.window, keep_going, "calibrating without the motor", state);
   const auto halves = halves_of(log, request.window);
   for (std::size_t i = 0; i < halves.size() && !log.is_partial; ++i)
-    calibrate(log, log.halves.at(i), file, halves.at(i), keep_going, "judging");
+    (void)calibrate(log, log.halves.at(i), file, halves.at(i), keep_going, "judging", state);
   return log;
 }
 

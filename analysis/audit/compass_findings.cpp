@@ -99,6 +99,13 @@ Finding iron_finding(const AuditedLog& log) {
   return finding;
 }
 
+/// A steady current looks like iron. Where the log has a current whose field it does not tell, both are possible.
+void weigh_against_motor(Finding& iron, const Finding& motor) {
+  if (iron.certainty != Certainty::found || motor.certainty != Certainty::cannot_say || !motor.value) return;
+  iron.certainty = Certainty::likely;
+  iron.sentence += " The log does not tell the field of the motor's current, which may be a part of it.";
+}
+
 void append_steps(std::vector<Finding>& findings, const AuditedLog& log) {
   const auto* const magnetometer = log.whole.report.find(Calibrator::magnetometer);
   if (magnetometer == nullptr) return;
@@ -148,6 +155,7 @@ Finding motor_finding(const AuditedLog& log) {
     // The largest field that the interval allows, ahead and abeam.
     const double ahead_rad = motor_heading_rad(log, {{*finding.high, 0, 0}}, most_A);
     const double abeam_rad = motor_heading_rad(log, {{0, *finding.high, 0}}, most_A);
+    finding.low = 0;  // the size of a noisy vector is never zero
     if (!(std::max(ahead_rad, abeam_rad) * kDegreesPerRadian < kLeastHeading_deg))
       return refused(finding, *report);
     finding.sentence = fmt::format("At {:.1f} A it is below {:.2f} uT.", most_A, *finding.high * most_A);
@@ -177,14 +185,14 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
   const auto value = errors ? root_mean_square_bounded(errors->time_s, errors->error_deg) : std::nullopt;
   if (!value)
     return finding.cannot(
-        "The compass could not be calibrated in both halves of the log, so that nothing judges this heading.",
+        "The compass could not be calibrated, or the field stepped, so that nothing judges this heading.",
         "Turn through all headings twice.");
   const double own_deg = 1.96 * errors->reference_std_rad * kDegreesPerRadian;
   finding.put({value->value, std::max(value->low - own_deg, 0.0), value->high + own_deg}, "deg");
   finding.sentence = fmt::format(
-      "This heading is {:.1f} deg (root mean square) off that of the field, calibrated on the other half of the "
-      "log{}.",
-      value->value, errors->is_absolute ? "" : "; a constant part cannot be told and is left out");
+      "This heading is {:.1f} deg (root mean square) off that of the field, calibrated on the {} log{}.",
+      value->value, errors->is_of_other_half ? "other half of the" : "whole",
+      errors->is_absolute ? "" : "; a constant part cannot be told and is left out");
   if (*finding.low <= kStatedHeading_deg) return finding;
   finding.certainty = channel.port == log.compass ? Certainty::found : Certainty::likely;
   finding.todo = "Calibrate the compass that this heading comes from, then compare again.";
@@ -235,7 +243,11 @@ std::vector<Finding> compass_findings(const AuditedLog& log) {
   if (!log.compass.empty() && !log.is_partial) {
     findings.push_back(iron_finding(log));
     append_steps(findings, log);
-    if (!log.all("field_x").empty()) findings.push_back(motor_finding(log));
+    if (!log.all("field_x").empty()) {
+      Finding motor = motor_finding(log);
+      weigh_against_motor(findings.front(), motor);
+      findings.push_back(std::move(motor));
+    }
     for (const RecordedChannel* channel : log.all("heading")) findings.push_back(heading_finding(log, *channel));
   }
   const auto fields = log.all("field_x");

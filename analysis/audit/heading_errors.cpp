@@ -108,9 +108,13 @@ double motor_heading_rad(const AuditedLog& log, const calib::MotorCurrentCorrect
 }
 
 std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading) {
-  const std::array halves{accepted_field(log.halves[0].report), accepted_field(log.halves[1].report)};
-  if (halves[0] == nullptr || halves[1] == nullptr || log.whole.report.segments.size() > 1) return std::nullopt;
+  std::array halves{accepted_field(log.halves[0].report), accepted_field(log.halves[1].report)};
+  const auto* const whole = accepted_field(log.whole.report);
+  if (whole == nullptr || log.whole.report.segments.size() > 1) return std::nullopt;
   HeadingErrors errors;
+  // A stated heading has no part in the fit of the field: the calibration of the whole log may judge it, too.
+  errors.is_of_other_half = halves[0] != nullptr && halves[1] != nullptr;
+  if (!errors.is_of_other_half) halves = {whole, whole};
   // A device of the compass states magnetic north; the autopilot states true north.
   const bool is_own = heading.port == log.compass;
   errors.is_absolute =
@@ -118,7 +122,8 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   const double declination_rad = is_own || !log.earth ? 0 : log.earth->declination_rad;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (std::size_t half = 0; half < 2; ++half) {
-    const auto* const report = log.halves.at(half).report.find(Calibrator::magnetometer);
+    const auto& judge = errors.is_of_other_half ? log.halves.at(half).report : log.whole.report;
+    const auto* const report = judge.find(Calibrator::magnetometer);
     if (const auto* std = report->quantity("worst_heading_rad"); std != nullptr)
       errors.reference_std_rad = std::max(errors.reference_std_rad, std->std);
     for (const TiltedField& field : tilted_fields(log.halves.at(half).samples, 0)) {

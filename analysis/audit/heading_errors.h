@@ -29,8 +29,9 @@ struct HeadingErrors {
   std::vector<double> time_s, heading_deg, error_deg;
   double reference_std_rad = 0;  ///< of the calibrated heading, at its worst heading
   bool is_absolute = false;      ///< false: the mean is left out
+  bool is_of_other_half = true;  ///< false: the field was calibrated on the whole log
 };
-/// nullopt where a half has no accepted calibration, or the field stepped.
+/// nullopt where the log has no accepted calibration, or the field stepped.
 [[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
 
 /// The fields of two ports at the times of the first.

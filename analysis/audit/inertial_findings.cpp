@@ -171,33 +171,41 @@ void append_forces(std::vector<Finding>& findings, const AuditedLog& log) {
   }
 }
 
-/// A delay that a calibrator finds. Each half of the log is judged for itself, too: what they differ by is part of
-/// the interval.
-void append_delay(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator, Finding finding,
-                  const char* words, double least_s) {
+/// A delay that a calibrator finds, after `of_compass` is taken off; returned. Each half of the log is judged for
+/// itself, too: what they differ by is part of the interval.
+Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator, Finding finding,
+                     const char* words, double least_s, const Bounded& of_compass = {}) {
   constexpr double kRate_deg_s = 20;
+  constexpr double kLinear = 0.15;  ///< of the value: the calibrators' models are linear in the delay
   const auto* const report = log.whole.report.find(calibrator);
-  if (report == nullptr) return;
+  if (report == nullptr) return {};
   const calib::Quantity* const value = report->quantity("delay_s");
-  if (!report->judgement.accepted || value == nullptr) return findings.push_back(refused(finding, *report));
-  double half_s = 1.96 * value->std;
+  // A calibrator refuses what is too uncertain to correct by; less tells that there is a delay.
+  if (value == nullptr || !(report->judgement.accepted || 1.96 * value->std < least_s)) {
+    findings.push_back(refused(finding, *report));
+    return {};
+  }
+  double half_s = 1.96 * value->std + kLinear * std::abs(value->value);
   bool are_both = true;
   for (const AuditedCalibration& half : log.halves) {
     const auto* const of_half = half.report.find(calibrator);
     const calib::Quantity* const other = of_half == nullptr ? nullptr : of_half->quantity("delay_s");
-    are_both = are_both && other != nullptr && of_half->judgement.accepted;
-    if (other != nullptr) half_s = std::max(half_s, std::abs(other->value - value->value));
+    are_both = are_both && other != nullptr && (of_half->judgement.accepted || 1.96 * other->std < least_s);
+    if (other != nullptr && are_both) half_s = std::max(half_s, std::abs(other->value - value->value));
   }
-  finding.put({value->value, value->value - half_s, value->value + half_s}, "s");
-  finding.sentence = fmt::format("The {} by {:.0f} ms{}.", words, 1000 * value->value,
+  const double delay_s = value->value + of_compass.value;
+  half_s = std::hypot(half_s, of_compass.high - of_compass.value);
+  finding.put({delay_s, delay_s - half_s, delay_s + half_s}, "s");
+  finding.sentence = fmt::format("The {} by {:.0f} ms{}.", words, 1000 * delay_s,
                                  are_both ? ", which each half of the log confirms" : "");
   if (*finding.low > least_s || *finding.high < -least_s) {
     finding.certainty = are_both ? Certainty::found : Certainty::likely;
     finding.todo = "Give the later sensor its latency in the configuration of the estimator.";
-    finding.put_heading(std::abs(value->value) * kRate_deg_s, log.speed_m_s());
+    finding.put_heading(std::abs(delay_s) * kRate_deg_s, log.speed_m_s());
     finding.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg/s.", kRate_deg_s);
   }
   findings.push_back(std::move(finding));
+  return {delay_s, delay_s - half_s, delay_s + half_s};
 }
 
 }  // namespace
@@ -208,10 +216,11 @@ std::vector<Finding> inertial_findings(const AuditedLog& log) {
   append_turned(findings, log, Calibrator::gyro_b, "yaw_rate_b");
   append_at_rest(findings, log);
   append_forces(findings, log);
-  append_delay(findings, log, Calibrator::compass_delay, {"delay.compass", "Delay of the compass", log.compass},
-               "compass is later than the gyro", 0.05);
+  const Bounded of_compass =
+      append_delay(findings, log, Calibrator::compass_delay,
+                   {"delay.compass", "Delay of the compass", log.compass}, "compass is later than the gyro", 0.05);
   append_delay(findings, log, Calibrator::course_delay, {"delay.course", "Delay of the receiver", log.compass},
-               "course over ground is later than the heading", 0.3);
+               "course over ground is later than the heading", 0.3, of_compass);
   return findings;
 }
 

@@ -44,9 +44,7 @@ class DataFlashFile {
   void take_known(const Plan& plan, std::uint8_t type, std::string_view record);
   /// Shaft and fins that the map makes of a record; false: none.
   bool take_channels(const Plan& plan, std::uint8_t type, std::string_view record);
-  [[nodiscard]] bool has_instances(std::uint8_t type) const {
-    return table_[type].find("I") != nullptr || table_[type].find("Instance") != nullptr;
-  }
+  [[nodiscard]] bool has_instances(std::uint8_t type) const { return table_[type].instance() != nullptr; }
   const std::string& label(std::uint8_t type, int instance, bool has_instances);
 
   void take_imu(const Plan& plan, std::string_view record, ImportedSample sample);

@@ -126,8 +126,7 @@ Plan::Plan(const Table& table, const MessageType& type) : version_(table.version
   const Column* const old_week = kind_ == Kind::gps && time_unit_ns_ != 1000 ? type.find("Week") : nullptr;
   const Column* const old_ms = time_;
   if (old_week != nullptr) time_ = type.find("T");
-  instance_ = type.find("I");
-  if (instance_ == nullptr) instance_ = type.find("Instance");
+  instance_ = type.instance();
   if (time_ == nullptr) why_not_ = "no time";
   if (kind_ == Kind::outputs) {
     for (const Column& column : type.columns) {

@@ -79,6 +79,12 @@ const Column* MessageType::find(std::string_view column) const {
   return found == columns.end() ? nullptr : &*found;
 }
 
+const Column* MessageType::instance() const {
+  for (const std::string_view name : {"I", "Instance", "Inst"})
+    if (const Column* const column = find(name); column != nullptr) return column;
+  return nullptr;
+}
+
 std::optional<std::int64_t> integer_of(const Column& column, std::string_view record) {
   switch (column.format) {
     case 'b': return little_endian<std::int8_t>(record, column.offset);

@@ -28,6 +28,8 @@ struct MessageType {
   std::vector<Column> columns;
 
   [[nodiscard]] const Column* find(std::string_view column) const;
+  /// The column with the number of the instrument: I, Instance or Inst. Null: there is one only.
+  [[nodiscard]] const Column* instance() const;
 };
 
 /// The descriptions that a DataFlash log carries of itself: FMT, FMTU, UNIT, MULT (AP_Logger/LogStructure.h of

@@ -56,6 +56,18 @@ TEST_F(AuditProgram, FindsWhatWasPlantedAndNothingElse) {
   EXPECT_TRUE(changed) << both.at("changes");
 }
 
+TEST_F(AuditProgram, TheFieldOfTheMotorIsNoIron) {
+  write("motor.toml", "[motor_field]\nx_uT_per_A = 1.6\ny_uT_per_A = 1.2\nz_uT_per_A = 0\n");
+  ASSERT_EQ(run_navcal("simulate --mission identification --seed 3 --effects motor.toml -o motor.cap"), 0)
+      << said("err");
+  const auto answer = audit("motor.cap");
+  const auto* const motor = find(answer, "compass.motor");
+  ASSERT_NE(motor, nullptr) << answer;
+  EXPECT_LT(motor->at("low"), 2);
+  EXPECT_GT(motor->at("high"), 2);
+  EXPECT_EQ(find(answer, "compass.iron"), nullptr) << answer;  // its steady part is the same cause
+}
+
 TEST_F(AuditProgram, SaysWhatCannotBeSaid) {
   ASSERT_EQ(run_navcal("simulate --mission survey --seconds 20 -o short.cap"), 0) << said("err");
   const auto answer = audit("short.cap");

@@ -62,6 +62,11 @@ TEST(Sources, ASampleFillsTheRolesOfWhatItMeasured) {
   EXPECT_TRUE(roles_of(sample).has(Role::rates));
   EXPECT_FALSE(roles_of(sample).has(Role::acceleration) || roles_of(sample).has(Role::depth));
 
+  instruments::MotorSample motor;
+  motor.current_A = 2;  // of a battery: the calibrator of the motor's field needs no more
+  sample.value = motor;
+  EXPECT_TRUE(roles_of(sample).has(Role::shaft));
+
   instruments::DvlSample dvl;
   dvl.altitude_m = 5;
   sample.value = dvl;

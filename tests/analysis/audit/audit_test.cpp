@@ -213,6 +213,56 @@ TEST(Audit, ScaleAndZerosOfADopplerLog) {
   EXPECT_DOUBLE_EQ(*find(findings, "dvl.zeros")->value, 10);
 }
 
+TEST(Audit, NoiseOfASlowReceiverIsNoScaleOfTheDopplerLog) {
+  AuditedLog log = with_fixes(0);
+  const auto noise = normal(400, 0, 0.1);
+  for (RecordedChannel& one : log.channels) {
+    for (std::size_t i = 0; i < 200; ++i) {
+      if (one.quantity == "velocity_north") one.series.values[i] = 0.48 + noise[i];
+      if (one.quantity == "velocity_east") one.series.values[i] = noise[200 + i];
+    }
+  }
+  log.channels.push_back(channel("dvl", "bottom_velocity_1", std::vector<double>(2000, 0.48), 0.1));
+  log.channels.push_back(channel("dvl", "bottom_velocity_2", std::vector<double>(2000, 0), 0.1));
+  EXPECT_EQ(find(water_findings(log), "dvl.scale")->certainty, Certainty::cannot_say);
+}
+
+calib::CalibratorReport delay_of(calib::Calibrator calibrator, double delay_s, double std_s, bool accepted) {
+  calib::CalibratorReport report;
+  report.calibrator = calibrator;
+  report.judgement.accepted = accepted;
+  report.estimate = {{"delay_s", delay_s, std_s}};
+  return report;
+}
+
+TEST(Audit, ADelayThatNoCalibrationWouldUseIsStillOne) {
+  AuditedLog log;
+  // Of a compass that is 0.3 s late; the receiver is not late, but its course comes before that heading.
+  log.whole.report.calibrators = {delay_of(calib::Calibrator::compass_delay, 0.281, 0.004, false),
+                                  delay_of(calib::Calibrator::course_delay, -0.29, 0.1, true)};
+  const auto findings = inertial_findings(log);
+  const Finding* const late = find(findings, "delay.compass");
+  ASSERT_NE(late, nullptr);
+  EXPECT_EQ(late->certainty, Certainty::likely);  // no half confirms it
+  EXPECT_LT(*late->low, 0.3);
+  EXPECT_GT(*late->high, 0.3);
+  EXPECT_EQ(find(findings, "delay.course")->certainty, Certainty::nothing);
+  log.whole.report.calibrators = {delay_of(calib::Calibrator::compass_delay, 0.281, 0.2, false)};
+  EXPECT_EQ(find(inertial_findings(log), "delay.compass")->certainty, Certainty::cannot_say);
+}
+
+TEST(Audit, WhatFollowsFromWrongRatesIsNotSaid) {
+  Finding sign{"convention.sign", "Convention", "rate_z", Certainty::found},
+      bias{"gyro.bias", "Bias", "imu.rate_z"};
+  bias.certainty = Certainty::found;
+  const auto certainty_beside = [&](const Finding& convention) {
+    return find(audited({}, {convention, bias}).findings, "gyro.bias")->certainty;
+  };
+  EXPECT_EQ(certainty_beside(sign), Certainty::cannot_say);
+  sign.channel = "position";
+  EXPECT_EQ(certainty_beside(sign), Certainty::found);
+}
+
 TEST(Audit, TwoCompassesThatPointApart) {
   AuditedLog log;
   for (const char* port : {"compass", "compass2"}) {

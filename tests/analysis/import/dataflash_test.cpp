@@ -85,7 +85,7 @@ std::string small_log() {
   log.format(12, 3 + 8 + 2 + 4 + 2 + 1 + 2 + 4 + 4 + 4 + 4 + 4 + 4, "GPS", "QBBIHBcLLefff",
              "TimeUS,I,Status,GMS,GWk,NSats,HDop,Lat,Lng,Alt,Spd,GCrs,VZ");
   log.format(13, 3 + 8 + 6, "ATT", "Qccc", "TimeUS,Roll,Pitch,Yaw");
-  log.format(14, 3 + 8 + 1 + 8, "BAT", "QBff", "TimeUS,Instance,Volt,Curr");
+  log.format(14, 3 + 8 + 1 + 8, "BAT", "QBff", "TimeUS,Inst,Volt,Curr");
   log.format(15, 3 + 8 + 6, "RCOU", "QHHH", "TimeUS,C1,C2,C3");
   log.format(16, 3 + 8 + 1 + 8 + 2, "BARO", "QBffc", "TimeUS,I,Alt,Press,Temp");
   log.format(17, 3 + 8 + 64, "MSG", "QZ", "TimeUS,Message");
