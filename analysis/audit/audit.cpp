@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <iterator>
@@ -83,21 +82,28 @@ std::vector<AuditChange> Audit::changes() const {
 
 namespace {
 
-/// What follows from the rates is not said where a convention says that they are wrong: it is one cause.
+/// What follows from false rates, or from a tilt by disturbed forces, is not said beside them: it is one cause.
 void leave_out_consequences(std::vector<Finding>& findings) {
-  const auto is_of_rates = [](const Finding& finding) {
+  const auto leave_out = [&](auto is_cause, std::string_view words, auto... consequences) {
+    const auto found = std::find_if(findings.begin(), findings.end(), is_cause);
+    if (found == findings.end()) return;
+    const std::string why = fmt::format("{}: {}", words, found->sentence), todo = found->todo;
+    for (Finding& finding : findings) {
+      if ((finding.name.starts_with(consequences) || ...))
+        finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, todo);
+    }
+  };
+  const auto are_rates_false = [](const Finding& finding) {
     return finding.name.starts_with("convention.") &&
            (finding.channel.starts_with("rate") || finding.channel == "body");
   };
-  const auto broken = std::find_if(findings.begin(), findings.end(), is_of_rates);
-  if (broken == findings.end()) return;
-  const std::string why = "The rates are not what they should be: " + broken->sentence + ".";
-  for (Finding& finding : findings) {
-    const bool follows = std::ranges::any_of(
-        std::array{"gyro.bias", "gyro.scale", "compass.step", "compass.motor", "compass.iron", "delay."},
-        [&](std::string_view start) { return finding.name.starts_with(start); });
-    if (follows) finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, broken->todo);
-  }
+  const auto are_forces_disturbed = [](const Finding& finding) {
+    return finding.name.starts_with("force.") && finding.certainty <= Certainty::likely;
+  };
+  leave_out(are_rates_false, "The rates are not what they should be", "gyro.bias", "gyro.scale", "compass.step",
+            "compass.motor", "compass.iron", "delay.");
+  leave_out(are_forces_disturbed, "The forces that tell the tilt are disturbed", "gyro.bias", "gyro.scale",
+            "compass.step", "compass.motor", "compass.iron", "compass.heading", "delay.");
 }
 
 }  // namespace

@@ -80,8 +80,8 @@ const Column* MessageType::find(std::string_view column) const {
 }
 
 const Column* MessageType::instance() const {
-  for (const std::string_view name : {"I", "Instance", "Inst"})
-    if (const Column* const column = find(name); column != nullptr) return column;
+  for (const std::string_view one : {"I", "Instance", "Inst"})
+    if (const Column* const column = find(one); column != nullptr) return column;
   return nullptr;
 }
 

@@ -263,6 +263,21 @@ TEST(Audit, WhatFollowsFromWrongRatesIsNotSaid) {
   EXPECT_EQ(certainty_beside(sign), Certainty::found);
 }
 
+TEST(Audit, WhatFollowsFromATiltByDisturbedForcesIsNotSaid) {
+  Finding vibration{"force.vibration", "Vibration", "imu", Certainty::found},
+      step{"compass.step", "Step", "compass"}, jumps{"gps.jumps", "Jumps", "gps"};
+  step.certainty = jumps.certainty = Certainty::found;
+  const auto certainty_of = [&](const char* name) {
+    return find(audited({}, {vibration, step, jumps}).findings, name)->certainty;
+  };
+  EXPECT_EQ(certainty_of("compass.step"), Certainty::cannot_say);
+  EXPECT_EQ(certainty_of("gps.jumps"), Certainty::found);
+  for (const Certainty calm : {Certainty::nothing, Certainty::cannot_say}) {
+    vibration.certainty = calm;
+    EXPECT_EQ(certainty_of("compass.step"), Certainty::found);
+  }
+}
+
 TEST(Audit, TwoCompassesThatPointApart) {
   AuditedLog log;
   for (const char* port : {"compass", "compass2"}) {
