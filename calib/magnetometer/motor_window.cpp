@@ -14,7 +14,7 @@ namespace {
 
 // Places of the unknowns: field at the window's beginning, hard iron, gyro bias, yaw gyro's scale, delay, soft
 // iron.
-constexpr int kField = 0, kHard = 3, kGyroBias = 6, kGyroScale = 9, kDelay = 10, kSoft = 11, kNuisances = 20;
+constexpr int kFieldAt = 0, kHardAt = 3, kBiasAt = 6, kScaleAt = 9, kDelayAt = 10, kSoftAt = 11, kNuisances = 20;
 constexpr int kSlope = kNuisances, kAll = kNuisances + 3;
 constexpr int kIterations = 3;
 /// Field values that the stated noise counts for beside the window's own.
@@ -59,16 +59,16 @@ Motion motion_of(const std::vector<MotorFieldReading>& window) {
 Unknowns prior_variance(const Motion& motion, double fixed_uT) {
   constexpr double kFixedSoftIron = 0.001;
   Unknowns variance;
-  variance.segment<3>(kField).setConstant(kField_uT * kField_uT);
+  variance.segment<3>(kFieldAt).setConstant(kField_uT * kField_uT);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double hard_uT = motion.tells(axis) ? kHard_uT : fixed_uT;
-    variance[kHard + axis] = hard_uT * hard_uT;
+    variance[kHardAt + axis] = hard_uT * hard_uT;
   }
-  variance.segment<3>(kGyroBias).setConstant(kBias_rad_s * kBias_rad_s);
-  variance[kGyroScale] = kScaleError * kScaleError;
-  variance[kDelay] = kDelay_s * kDelay_s;
+  variance.segment<3>(kBiasAt).setConstant(kBias_rad_s * kBias_rad_s);
+  variance[kScaleAt] = kScaleError * kScaleError;
+  variance[kDelayAt] = kDelay_s * kDelay_s;
   const double soft_iron = motion.tells(0) || motion.tells(2) ? kSoftIron : kFixedSoftIron;
-  variance.segment<9>(kSoft).setConstant(soft_iron * soft_iron);
+  variance.segment<9>(kSoftAt).setConstant(soft_iron * soft_iron);
   variance.segment<3>(kSlope).setConstant(1 / kSlopeInformation);
   return variance;
 }
@@ -127,20 +127,20 @@ class Turning {
   [[nodiscard]] Rows rows() const {
     const Eigen::Vector3d u = turned_ * point_.field_uT;
     Rows rows;
-    rows.middleCols<3>(kField) = turned_;
-    rows.middleCols<3>(kHard).setIdentity();
-    rows.middleCols<3>(kGyroBias) = base::cross_product_matrix(u) * turned_ * bias_;
-    rows.col(kGyroScale) = u.cross(turned_ * scale_);
-    rows.col(kDelay) = before_.rate_rad_s.cross(u);
-    for (int i = 0; i < 3; ++i) rows.middleCols<3>(kSoft + 3 * i) = Eigen::Matrix3d::Identity() * u[i];
+    rows.middleCols<3>(kFieldAt) = turned_;
+    rows.middleCols<3>(kHardAt).setIdentity();
+    rows.middleCols<3>(kBiasAt) = base::cross_product_matrix(u) * turned_ * bias_;
+    rows.col(kScaleAt) = u.cross(turned_ * scale_);
+    rows.col(kDelayAt) = before_.rate_rad_s.cross(u);
+    for (int i = 0; i < 3; ++i) rows.middleCols<3>(kSoftAt + 3 * i) = Eigen::Matrix3d::Identity() * u[i];
     rows.middleCols<3>(kSlope) = Eigen::Matrix3d::Identity() * before_.current_A;
     return rows;
   }
   /// Right-hand side of the linear equations: the reading, plus the part that the point of linearisation has
   /// already put into the turn.
   [[nodiscard]] Eigen::Vector3d observed(const Rows& rows) const {
-    return before_.field_body_uT + rows.middleCols<3>(kGyroBias) * point_.bias_rad_s +
-           rows.col(kGyroScale) * point_.scale;
+    return before_.field_body_uT + rows.middleCols<3>(kBiasAt) * point_.bias_rad_s +
+           rows.col(kScaleAt) * point_.scale;
   }
 
  private:
@@ -185,11 +185,11 @@ class WindowFilter {
     return (kPriorValues + square_) / (kPriorValues + values - kSpent);
   }
   [[nodiscard]] Point found() const {
-    return {state_.segment<3>(kField), state_.segment<3>(kGyroBias), state_[kGyroScale]};
+    return {state_.segment<3>(kFieldAt), state_.segment<3>(kBiasAt), state_[kScaleAt]};
   }
   [[nodiscard]] MotorFieldEvidence evidence(double values) const {
     MotorFieldEvidence evidence;
-    const std::array<Eigen::Index, 6> places{kSlope, kSlope + 1, kSlope + 2, kHard, kHard + 1, kHard + 2};
+    const std::array<Eigen::Index, 6> places{kSlope, kSlope + 1, kSlope + 2, kHardAt, kHardAt + 1, kHardAt + 2};
     const MotorFieldEvidence::Information information = covariance_(places, places).inverse();
     const MotorFieldEvidence::Vector best = state_(places);
     // Residuals that are larger than the noise says: everything is less certain.
