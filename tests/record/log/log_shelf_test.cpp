@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "record/log/checksum.h"
+#include "record/log/mcap_format.h"
 #include "tests/record/sample_log.h"
 #include "tests/support/temporary_folder.h"
 
