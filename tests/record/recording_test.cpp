@@ -167,5 +167,83 @@ TEST_F(RecordingFiles, ALogIsOnOneScaleOfUtcAlsoBeforeItWasKnown) {
   }
 }
 
+/// Reads one second apart from 2026-01-01T00:00:10Z on, in UTC by a log's mapping: the first `reads` of imu.
+std::string log_of_seconds(int reads) {
+  const auto settings = testing::sample_settings();
+  std::string log;
+  LogEncoder encoder(settings, config::to_toml(settings));
+  constexpr std::int64_t kSecond_ns = 1'000'000'000, kNewYear_ns = 1'767'225'600 * kSecond_ns;
+  const std::int64_t begin_ns = testing::kSampleStart_ns;
+  encoder.begin(log, begin_ns,
+                {pipeline::UtcMapping::Source::gps, kNewYear_ns + 10 * kSecond_ns - begin_ns, 1, begin_ns});
+  for (int i = 0; i < reads; ++i) {
+    const std::int64_t at_ns = begin_ns + i * kSecond_ns;
+    encoder.raw(log, 1, Direction::received, at_ns, std::vector<std::uint8_t>{static_cast<std::uint8_t>(i)});
+    encoder.event(log, at_ns + 1, "info", "mark", "", std::to_string(i));
+  }
+  encoder.finish(log, begin_ns);
+  return log;
+}
+
+TEST_F(RecordingFiles, AWindowHoldsTheReadsFromItsBeginUpToItsEnd) {
+  const auto file = write("a.mcap", log_of_seconds(10));
+  const auto reads_within = [&](const char* from, const char* to) {
+    TimeWindow window;
+    if (from != nullptr) window.from = parse_time_bound(from).value();
+    if (to != nullptr) window.to = parse_time_bound(to).value();
+    std::vector<int> numbers;
+    for (const Entry& entry : entries_of(*Recording::open(file, window))) {
+      if (const auto* read = std::get_if<RawRead>(&entry)) numbers.push_back(read->bytes.at(0));
+    }
+    return numbers;
+  };
+  using Numbers = std::vector<int>;
+  EXPECT_EQ(reads_within("3", "6"), (Numbers{3, 4, 5})) << "seconds are those since the first read";
+  EXPECT_EQ(reads_within("2026-01-01T00:00:13Z", "2026-01-01T00:00:16Z"), (Numbers{3, 4, 5}));
+  EXPECT_EQ(reads_within("2.5", "2026-01-01T00:00:15.5Z"), (Numbers{3, 4, 5}));
+  EXPECT_EQ(reads_within("8", nullptr), (Numbers{8, 9}));
+  EXPECT_EQ(reads_within(nullptr, "2026-01-01T00:00:12Z"), (Numbers{0, 1}));
+  EXPECT_EQ(reads_within("0", "100"), (Numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_TRUE(reads_within("2027-01-01T00:00:00Z", nullptr).empty());
+  EXPECT_TRUE(reads_within(nullptr, "2025-01-01T00:00:00Z").empty());
+}
+
+TEST_F(RecordingFiles, WhatWasRecordedBeforeAWindowComesAtItsBegin) {
+  const auto file = write("a.mcap", log_of_seconds(10));
+  const auto entries = entries_of(*Recording::open(file, {parse_time_bound("3"), parse_time_bound("5")}));
+  const std::int64_t begin_ns = testing::kSampleStart_ns + 3'000'000'000;
+  ASSERT_FALSE(entries.empty());
+  ASSERT_TRUE(std::holds_alternative<MappingChange>(entries.front())) << "without it there is no UTC";
+  std::size_t events = 0;
+  for (const Entry& entry : entries) {
+    std::visit([&](const auto& one) { EXPECT_GE(one.time_ns, begin_ns); }, entry);
+    events += std::holds_alternative<LoggedEvent>(entry) ? 1U : 0U;
+  }
+  EXPECT_EQ(events, 5U) << "of the reads 0 to 4";
+}
+
+TEST_F(RecordingFiles, ABoundIsSecondsOrUtc) {
+  EXPECT_EQ(parse_time_bound("12.5").value().since_start_s, 12.5);
+  EXPECT_FALSE(parse_time_bound("12.5").value().utc_ns);
+  EXPECT_EQ(parse_time_bound("2026-01-01T00:00:12Z").value().utc_ns, 1'767'225'612'000'000'000);
+  for (const char* const bad : {"", "-1", "noon", "12s"}) EXPECT_FALSE(parse_time_bound(bad)) << bad;
+}
+
+TEST_F(RecordingFiles, WhatALogLeavesOutIsRemarkedOnceUntilItChanges) {
+  const auto settings = testing::sample_settings();
+  std::string log;
+  LogEncoder encoder(settings, config::to_toml(settings));
+  encoder.begin(log, testing::kSampleStart_ns, {});
+  for (const char* const parts : {"raw of imu", "raw of imu", "nothing", "nothing", "raw of imu"})
+    encoder.event(log, testing::kSampleStart_ns, "info", "log.left_out", "", parts);
+  encoder.finish(log, testing::kSampleStart_ns);
+  const auto recording = Recording::open(write("a.mcap", log));
+  EXPECT_EQ(entries_of(*recording).size(), 6U);
+  ASSERT_EQ(recording->remarks().size(), 2U);
+  EXPECT_NE(recording->remarks()[0].find("left out of this log by log.leave_out or log.select: raw of imu"),
+            std::string::npos);
+  EXPECT_EQ(recording->remarks()[0], recording->remarks()[1]);
+}
+
 }  // namespace
 }  // namespace navcal::record

@@ -51,6 +51,7 @@ TEST_F(Export, ACaptureOfALogHasTheSameBytesInTheSameOrder) {
   const auto file = write("a.mcap", log.bytes);
   const auto exported = export_capture(file, path_ / "a.cap", no_progress);
   EXPECT_TRUE(exported.remarks.empty());
+  EXPECT_EQ(exported.files, std::vector{path_ / "a.cap"});
   const auto from = Recording::open(file);
   const auto to = Recording::open(path_ / "a.cap");
   const auto next_read = [](Recording& recording) -> std::optional<RawRead> {

@@ -259,5 +259,24 @@ TEST(FlatJson, NamesWhatLiesDeeper) {
   EXPECT_FALSE(FlatJson::parse("{\"" + std::string(1000, 'a') + "\":[0,0]}")) << "each member keeps its path";
 }
 
+TEST(Json, APositionIsInDegreesAndAHeadingInRadians) {
+  instruments::Sample sample;
+  instruments::GpsSample gps;
+  gps.latitude_rad = 0.5;
+  gps.longitude_rad = -0.25;
+  sample.value = gps;
+  std::string text;
+  append_json(text, sample, "gps");
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_DOUBLE_EQ(json["lat"].get<double>(), 28.64788975654116);
+  EXPECT_DOUBLE_EQ(json["lon"].get<double>(), -14.32394487827058);
+  instruments::CompassSample compass;
+  compass.heading_rad = 0.5;
+  sample.value = compass;
+  text.clear();
+  append_json(text, sample, "compass");
+  EXPECT_EQ(nlohmann::json::parse(text)["heading_rad"], 0.5);
+}
+
 }  // namespace
 }  // namespace navcal::record

@@ -178,5 +178,14 @@ TEST(LogFolder, TheMissionBeforeIsNeverRemoved) {
   EXPECT_EQ(disk.names().size(), 1U);
 }
 
+TEST_F(LogFolderOnDisk, AFileThatSomebodyRemovedIsGone) {
+  std::error_code error;
+  const auto file = real_disk().create(path_ / "a", error);
+  ASSERT_TRUE(file) << error.message();
+  EXPECT_FALSE(file->is_gone());
+  ASSERT_FALSE(real_disk().remove(path_ / "a"));
+  EXPECT_TRUE(file->is_gone());
+}
+
 }  // namespace
 }  // namespace navcal::record

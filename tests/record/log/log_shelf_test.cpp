@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "record/log/checksum.h"
+#include "record/log/mcap_format.h"
 #include "tests/record/sample_log.h"
 #include "tests/support/temporary_folder.h"
 
@@ -119,6 +120,54 @@ TEST_F(LogShelf, OnlyRegularFilesAreRead) {
   ASSERT_EQ(::mkfifo((folder_ / pipe).c_str(), 0600), 0);
   for (const std::string& name : {link, folder, pipe, std::string("../passwd"), log_name(0, 4)})
     EXPECT_TRUE(std::holds_alternative<std::string>(read_log(folder_.path(), name, 0, 1))) << name;
+}
+
+/// A file whose summary is these records, and whose footer says that it begins at `begin`.
+std::string file_ending_with(std::string_view head, std::string_view summary, std::uint64_t begin) {
+  std::string bytes = std::string(head) + std::string(summary);
+  bytes += static_cast<char>(Opcode::footer);
+  append_le(bytes, std::uint64_t{kFooterLength});
+  append_le(bytes, begin);
+  append_le(bytes, std::uint64_t{0});
+  append_le(bytes, std::uint32_t{0});
+  return bytes + std::string(kMcapMagic);
+}
+
+TEST_F(LogShelf, TheTimesOfALogOfAnotherWriterAreReadAndAFileWithoutSummaryHasNone) {
+  std::string statistics;
+  {
+    const RecordScope record(statistics, Opcode::statistics);
+    append_le(statistics, std::uint64_t{5});
+    append_le(statistics, std::uint16_t{0});
+    for (int i = 0; i < 4; ++i) append_le(statistics, std::uint32_t{0});
+    append_le(statistics, std::int64_t{1000});
+    append_le(statistics, std::int64_t{3000});
+    append_le(statistics, std::uint32_t{0});
+  }
+  const std::string head(kMcapMagic);
+  const auto alone = span(file_ending_with(head, statistics, head.size()));
+  ASSERT_TRUE(alone) << "the last record of a summary ends where the summary does";
+  EXPECT_EQ(alone->begin_ns, 1000);
+  EXPECT_EQ(alone->end_ns, 3000);
+  EXPECT_FALSE(span(file_ending_with("", statistics, 0))) << "0: there is no summary";
+  EXPECT_FALSE(span(file_ending_with(head, statistics, head.size() + statistics.size() + 1)));
+  EXPECT_FALSE(span(file_ending_with(head, statistics, UINT64_MAX)));
+  EXPECT_FALSE(span(file_ending_with(head, statistics.substr(0, statistics.size() - 1), head.size())))
+      << "a record that is longer than the summary";
+}
+
+TEST_F(LogShelf, WhyALogIsNotReadIsSaid) {
+  const auto why = [&](const std::string& name) {
+    return std::get<std::string>(read_log(folder_.path(), name, 0, 1));
+  };
+  EXPECT_EQ(why("../passwd"), "that is not the name of a log; log.list has them");
+  EXPECT_EQ(why(log_name(0, 4)),
+            log_name(0, 4) + ": there is no such log (any more: the oldest are removed to make room)");
+  std::filesystem::create_directory(folder_ / log_name(0, 2));
+  EXPECT_EQ(why(log_name(0, 2)), log_name(0, 2) + ": not a regular file");
+  put(log_name(0, 3), "abc");
+  EXPECT_EQ(std::get<std::string>(read_log(folder_.path(), log_name(0, 3), 4, 1)),
+            log_name(0, 3) + ": byte 4 is behind its end at 3");
 }
 
 }  // namespace

@@ -219,5 +219,40 @@ TEST(SampleMessages, HealthBecomesDiagnostics) {
   EXPECT_EQ(array->status[3].level, ros2::DiagnosticStatus::kOk);
 }
 
+TEST(SampleMessages, AnErrorThatIsNotKnownIsZeroAndAllOthersAreOnTheDiagonal) {
+  const std::string head =
+      R"({"device":"c","heading_rad":0.25,"heading_is_true":true,"pitch_rad":0.25,"roll_rad":0)";
+  const auto covariance = [&](const std::string& members) {
+    return message_on<ros2::Imu>(made_of("/compass", head + members + "}"), "/navcal/c/attitude", "base_link")
+        .value()
+        .orientation_covariance;
+  };
+  EXPECT_EQ(covariance(""), ros2::Matrix3{});
+  EXPECT_EQ(covariance(R"(,"heading_std_rad":0.5)"), (ros2::Matrix3{1e6, 0, 0, 0, 1e6, 0, 0, 0, 0.25}));
+  EXPECT_EQ(covariance(R"(,"tilt_std_rad":0.5)"), (ros2::Matrix3{0.25, 0, 0, 0, 0.25, 0, 0, 0, 1e6}));
+  EXPECT_EQ(covariance(R"(,"heading_std_rad":0.5,"tilt_std_rad":0.25)"),
+            (ros2::Matrix3{0.0625, 0, 0, 0, 0.0625, 0, 0, 0, 0.25}));
+  const auto range = message_on<ros2::Range>(made_of("/altimeter", R"({"device":"a","altitude_m":12.5})"),
+                                             "/navcal/a/range", "a");
+  EXPECT_EQ(range.value().variance, 0);
+  const auto pressure = message_on<ros2::FluidPressure>(made_of("/depth", R"({"device":"d","pressure_Pa":1})"),
+                                                        "/navcal/d/pressure", "d");
+  EXPECT_EQ(pressure.value().variance, 0);
+}
+
+TEST(SampleMessages, ABatteryIsDischargedByACurrentOutOfIt) {
+  const auto status = [](const std::string& current) {
+    return message_on<ros2::BatteryState>(
+               made_of("/power", R"({"device":"pack","voltage_V":12.5,"current_A":)" + current + "}"),
+               "/navcal/pack/battery", "pack")
+        .value()
+        .power_supply_status;
+  };
+  EXPECT_EQ(status("2"), 2) << "discharging";
+  EXPECT_EQ(status("-2"), 1) << "charging";
+  EXPECT_EQ(status("0"), 0);
+  EXPECT_EQ(status("null"), 0);
+}
+
 }  // namespace
 }  // namespace navcal::record
