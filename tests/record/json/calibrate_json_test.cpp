@@ -119,6 +119,28 @@ TEST(CalibLines, EveryStreamHasItsCounts) {
   }
 }
 
+TEST(CalibLines, ACalibratorHasItsVerdictAndItsEstimate) {
+  auto gyro = judged(calib::Calibrator::gyro, calib::HeldOutQuantity::heading);
+  gyro.verdict = calib::Verdict::shadow;
+  gyro.outcome = calib::Outcome::no_better;
+  gyro.estimate = {{"scale", 1.5, 0.25}, {"bias_rad_s", 0.5, 0.125}};
+  gyro.held = true;
+  gyro.steps_back = 2;
+  calib::Report report;
+  report.calibrators = {gyro};
+  const CalibJson line = CalibJson::parse(calib_lines(report, {}).at(0));
+  const CalibJson& one = line["calibrators"][0];
+  EXPECT_EQ(one["verdict"], calib::name_of(gyro.verdict));
+  EXPECT_EQ(one["judgement"], calib::name_of(gyro.outcome));
+  EXPECT_EQ(one["estimate"]["scale"], 1.5);
+  EXPECT_EQ(one["std"]["scale"], 0.25);
+  EXPECT_DOUBLE_EQ(one["estimate"]["bias_deg_s"].get<double>(), 0.5 * kRadian_deg);
+  EXPECT_DOUBLE_EQ(one["held_out_before_deg"].get<double>(), 0.5 * kRadian_deg);
+  EXPECT_TRUE(one["held_out_after_percent"].is_null());
+  EXPECT_EQ(one["held"], true);
+  EXPECT_EQ(one["steps_back"], 2);
+}
+
 TEST(CalibLines, AReportThatIsTooLongForALineComesInNumberedParts) {
   calib::Report report;
   for (const calib::Calibrator calibrator : calib::calibrators()) {

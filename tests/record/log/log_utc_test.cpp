@@ -70,6 +70,16 @@ TEST_F(LogUtcOfFile, TimesThatAreNotUtcAreToldAsSeconds) {
   EXPECT_EQ(known.find("monotonic"), std::string::npos) << known;
 }
 
+TEST(RecordingInfoText, SaysWhatKindOfFileItIs) {
+  RecordingInfo info;
+  info.file = "a";
+  info.bytes = 12;
+  EXPECT_TRUE(to_text(info).starts_with("a: capture, 12 bytes, finished\n")) << to_text(info);
+  info.log = true;
+  info.finished = false;
+  EXPECT_TRUE(to_text(info).starts_with("a: log, 12 bytes, unfinished\n")) << to_text(info);
+}
+
 TEST(RecordingInfoJson, TextsOfPeopleStayReadableAndDamagedOnesAreText) {
   RecordingInfo info;
   info.file = "Tauchgang_Kühlungsborn.mcap";
