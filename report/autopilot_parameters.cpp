@@ -30,26 +30,30 @@ std::string autopilot_parameters(const calib::Report& report, int unit) {
   const auto add = [&](std::string_view kind, char axis, double value) {
     lines += fmt::format("COMPASS_{}{}_{},{:.4f}\n", kind, number, axis, value);
   };
-  constexpr std::string_view kAxes = "XYZ", kLower = "xyz";
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    if (is_determined(fmt::format("offset_{}_uT", kLower[axis])))
-      add("OFS", kAxes[axis], -field->offset_uT[i] * kMilliGaussPerMicrotesla);
-    else
-      left += fmt::format("# COMPASS_OFS{}_{} was not determined, and stays as it is\n", number, kAxes[axis]);
-  }
+  const auto add_determined = [&](std::string_view kind, char axis, std::string_view quantity, double value) {
+    if (is_determined(quantity)) return add(kind, axis, value);
+    left += fmt::format("# COMPASS_{}{}_{} was not determined, and stays as it is\n", kind, number, axis);
+  };
+  const Eigen::Vector3d offset_mG = -field->offset_uT * kMilliGaussPerMicrotesla;
   const Eigen::Matrix3d& matrix = field->matrix;
-  for (Eigen::Index i = 0; i < 3; ++i) add("DIA", kAxes[static_cast<std::size_t>(i)], matrix(i, i));
-  add("ODI", 'X', matrix(0, 1));
-  add("ODI", 'Y', matrix(0, 2));
-  add("ODI", 'Z', matrix(1, 2));
+  add_determined("OFS", 'X', "offset_x_uT", offset_mG.x());
+  add_determined("OFS", 'Y', "offset_y_uT", offset_mG.y());
+  add_determined("OFS", 'Z', "offset_z_uT", offset_mG.z());
+  add_determined("DIA", 'X', "matrix_xx", matrix(0, 0));
+  add_determined("DIA", 'Y', "matrix_yy", matrix(1, 1));
+  add_determined("DIA", 'Z', "matrix_zz", matrix(2, 2));
+  add_determined("ODI", 'X', "matrix_xy", matrix(0, 1));
+  add_determined("ODI", 'Y', "matrix_xz", matrix(0, 2));
+  add_determined("ODI", 'Z', "matrix_yz", matrix(1, 2));
   lines += fmt::format("COMPASS_SCALE{},1\n", number);
   const calib::CalibratorReport* const motor = report.find(calib::Calibrator::motor_current);
   if (motor != nullptr && motor->outcome == calib::Outcome::accepted && report.estimates.motor_current) {
     const Eigen::Vector3d added =
         -(matrix * report.estimates.motor_current->slope_uT_per_A) * kMilliGaussPerMicrotesla;
     lines += "# The motor's field goes by the current of the first battery\nCOMPASS_MOTCT,2\n";
-    for (Eigen::Index i = 0; i < 3; ++i) add("MOT", kAxes[static_cast<std::size_t>(i)], added[i]);
+    add("MOT", 'X', added.x());
+    add("MOT", 'Y', added.y());
+    add("MOT", 'Z', added.z());
   }
   return lines + left;
 }

@@ -82,7 +82,7 @@ std::vector<AuditChange> Audit::changes() const {
 
 namespace {
 
-/// What follows from false rates, or from a tilt by disturbed forces, is not said beside them: it is one cause.
+/// Leaves out the consequences of false rates, and of a tilt by disturbed forces: they have one cause.
 void leave_out_consequences(std::vector<Finding>& findings) {
   const auto leave_out = [&](auto is_cause, std::string_view words, auto... consequences) {
     const auto found = std::find_if(findings.begin(), findings.end(), is_cause);

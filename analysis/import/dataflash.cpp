@@ -306,7 +306,7 @@ void DataFlashFile::take_text(const Plan& plan, std::string_view record) {
   take_compass_parameter(plan, record);
 }
 
-// What the motor's field was taken to be stands in each message.
+// Each message states the motor's field that was taken off.
 void DataFlashFile::take_compass_parameter(const Plan& plan, std::string_view record) {
   const auto value = field(plan, record, 1);
   const std::string_view name = plan.text(record, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ArduPilot makes of a field with the parameters is what the calibration makes of it.
+// ArduPilot, with the parameters, makes of a field what the calibration makes of it.
 #include "report/autopilot_parameters.h"
 
 #include <gtest/gtest.h>
@@ -23,9 +23,11 @@ calib::Report report_of(const Eigen::Vector3d& offset_uT, const Eigen::Matrix3d&
   calib::CalibratorReport iron;
   iron.calibrator = calib::Calibrator::magnetometer;
   iron.outcome = calib::Outcome::accepted;
-  iron.estimate = {{"offset_x_uT", offset_uT.x(), 0.1},
-                   {"offset_y_uT", offset_uT.y(), 0.1},
-                   {"offset_z_uT", offset_uT.z(), z_std_uT}};
+  iron.estimate = {{"offset_x_uT", offset_uT.x(), 0.1},      {"offset_y_uT", offset_uT.y(), 0.1},
+                   {"offset_z_uT", offset_uT.z(), z_std_uT}, {"matrix_xx", matrix(0, 0), 0.01},
+                   {"matrix_yy", matrix(1, 1), 0.01},        {"matrix_zz", matrix(2, 2), z_std_uT},
+                   {"matrix_xy", matrix(0, 1), 0.01},        {"matrix_xz", matrix(0, 2), z_std_uT},
+                   {"matrix_yz", matrix(1, 2), z_std_uT}};
   report.calibrators.push_back(iron);
   return report;
 }
@@ -85,7 +87,9 @@ TEST(AutopilotParameters, WhatIsNotDeterminedIsLeftOut) {
   const auto values = values_of(file);
   EXPECT_EQ(values.at("COMPASS_OFS_X"), -30);
   EXPECT_EQ(values.at("COMPASS_OFS_Y"), 40);
-  EXPECT_FALSE(values.contains("COMPASS_OFS_Z")) << file;
+  for (const char* vertical : {"COMPASS_OFS_Z", "COMPASS_DIA_Z", "COMPASS_ODI_Y", "COMPASS_ODI_Z"})
+    EXPECT_FALSE(values.contains(vertical)) << vertical << '\n' << file;
+  EXPECT_EQ(values.at("COMPASS_DIA_X"), 1);
   EXPECT_FALSE(values.contains("COMPASS_MOTCT")) << file;
   EXPECT_NE(file.find("COMPASS_OFS_Z was not determined"), std::string::npos) << file;
 }
