@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "analysis/output.h"
+#include "base/output.h"
 #include "protocols/frame.h"
 #include "protocols/nmea_decimal.h"
 #include "protocols/utc.h"
@@ -20,7 +20,7 @@ class FieldWriter {
   enum class Format : std::uint8_t { json, text };
 
   /// `pivot`: dates before it are moved up by whole epochs of 1024 weeks; nullopt: dates as sent.
-  FieldWriter(Output& output, Format format, std::optional<protocols::Date> pivot = {})
+  FieldWriter(base::Output& output, Format format, std::optional<protocols::Date> pivot = {})
       : output_(output), json_(format == Format::json), pivot_(pivot) {}
   [[nodiscard]] const std::optional<protocols::Date>& pivot() const { return pivot_; }
 
@@ -111,7 +111,7 @@ class FieldWriter {
   void write_decimal(const protocols::nmea::Decimal& value);
   void write_time(const protocols::TimeOfDay& time);
 
-  Output& output_;
+  base::Output& output_;
   bool json_;
   std::optional<protocols::Date> pivot_;
   bool has_fields_ = false;

@@ -5,7 +5,7 @@
 
 namespace navcal::analysis {
 
-void write_json(Output& output, const DecodeSummary& summary) {
+void write_json(base::Output& output, const DecodeSummary& summary) {
   const auto& counters = summary.counters;
   output.append(fmt::format(R"({{"class":"SUMMARY","bytes":{},"frames":{{)", counters.bytes));
   bool first = true;
@@ -19,7 +19,7 @@ void write_json(Output& output, const DecodeSummary& summary) {
                             summary.incomplete_bytes));
 }
 
-void write_text(Output& output, const DecodeSummary& summary) {
+void write_text(base::Output& output, const DecodeSummary& summary) {
   const auto& counters = summary.counters;
   output.append(fmt::format("\n{} frames", counters.frames));
   const char* separator = ": ";

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "analysis/output.h"
+#include "base/output.h"
 #include "pipeline/pipeline.h"
 #include "protocols/frame.h"
 
@@ -22,8 +22,8 @@ struct DecodeSummary {
 };
 
 /// The SUMMARY line of docs/cli.md.
-void write_json(Output& output, const DecodeSummary& summary);
+void write_json(base::Output& output, const DecodeSummary& summary);
 /// The same for people.
-void write_text(Output& output, const DecodeSummary& summary);
+void write_text(base::Output& output, const DecodeSummary& summary);
 
 }  // namespace navcal::analysis

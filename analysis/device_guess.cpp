@@ -7,7 +7,7 @@
 
 #include "analysis/device_check.h"
 #include "analysis/device_guess_parts.h"
-#include "analysis/failure.h"
+#include "base/failure.h"
 
 namespace navcal::analysis {
 namespace {
@@ -63,9 +63,10 @@ std::string checksum_line(const std::optional<Checksum>& checksum) {
 std::string binary_description(protocols::Bytes capture, std::optional<double> seconds) {
   const auto framings = find_framings(capture);
   if (framings.empty() || framings.front().coverage < kLeastCoverage)
-    throw Failure(Exit::bad_input,
-                  "no pair of bytes comes back at one distance, or at one that a number behind it states: is the "
-                  "line speed right, and is the capture long enough?");
+    throw base::Failure(
+        base::Exit::bad_input,
+        "no pair of bytes comes back at one distance, or at one that a number behind it states: is the "
+        "line speed right, and is the capture long enough?");
   constexpr double kAboutAsWell = 0.9;
   const Framing* chosen = &framings.front();
   std::optional<Checksum> checksum;
@@ -89,7 +90,7 @@ std::string binary_description(protocols::Bytes capture, std::optional<double> s
 std::string text_description(protocols::Bytes capture, std::optional<double> seconds) {
   char separator = ',';
   const std::string frames = text_frames(capture, separator);
-  if (frames.empty()) throw Failure(Exit::bad_input, "no kind of line comes back three times");
+  if (frames.empty()) throw base::Failure(base::Exit::bad_input, "no kind of line comes back three times");
   const auto lines = static_cast<std::size_t>(std::count(capture.begin(), capture.end(), std::uint8_t{'\n'}));
   const std::string separator_line = separator == ',' ? "" : fmt::format("separator = \"{}\"\n", separator);
   return head("text", rate_line(lines, seconds)) + separator_line + frames;
@@ -98,7 +99,7 @@ std::string text_description(protocols::Bytes capture, std::optional<double> sec
 }  // namespace
 
 std::string guess_description(protocols::Bytes capture, std::optional<double> seconds) {
-  if (capture.empty()) throw Failure(Exit::bad_input, "the capture is empty");
+  if (capture.empty()) throw base::Failure(base::Exit::bad_input, "the capture is empty");
   const protocols::Bytes looked_at = capture.first(std::min(capture.size(), kMostBytes));
   // The duration is that of the whole capture.
   if (seconds) *seconds *= static_cast<double>(looked_at.size()) / static_cast<double>(capture.size());

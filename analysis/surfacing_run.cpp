@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "analysis/port_matching.h"
-#include "analysis/progress.h"
+#include "base/progress.h"
 #include "record/recording.h"
 
 namespace navcal::analysis {
@@ -39,7 +39,7 @@ bool SurfacingRun::play(const std::string& file) {
   file_ = file;
   const auto recording = record::Recording::open(file);
   const auto ports = match_ports(recording->settings(), settings_, file);
-  Progress progress("surfacings");
+  base::Progress progress("surfacings");
   bool begins = true;
   while (const auto entry = recording->next()) {
     const std::int64_t time_ns = entry_time_ns(*entry);

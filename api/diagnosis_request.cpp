@@ -6,9 +6,9 @@
 
 #include <stdexcept>
 
-#include "analysis/place_arguments.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
+#include "emulation/place_arguments.h"
 #include "gap/data/silence.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
@@ -48,7 +48,7 @@ gap::Request request_of(const std::vector<std::filesystem::path>& missions, cons
     request.without.insert(request.without.end(), quantities.begin(), quantities.end());
   }
   if (const auto& field = options.field_uT) {
-    analysis::PlaceArguments where;
+    emulation::PlaceArguments where;
     where.field = fmt::format("{},{},{}", (*field)[0], (*field)[1], (*field)[2]);
     request.field_uT = where.field_uT();
   }

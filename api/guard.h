@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "config/error.h"
 #include "record/recording.h"
 #include "sim/path.h"
@@ -49,12 +49,12 @@ class ProgressRelay {
   std::exception_ptr thrown_;
 };
 
-[[nodiscard]] inline ErrorKind kind_of(const analysis::Failure& failure) {
+[[nodiscard]] inline ErrorKind kind_of(const base::Failure& failure) {
   switch (failure.status()) {
-    case analysis::Exit::usage: return ErrorKind::bad_argument;
-    case analysis::Exit::bad_input: return ErrorKind::bad_input;
-    case analysis::Exit::success:
-    case analysis::Exit::failed: break;
+    case base::Exit::usage: return ErrorKind::bad_argument;
+    case base::Exit::bad_input: return ErrorKind::bad_input;
+    case base::Exit::success:
+    case base::Exit::failed: break;
   }
   return ErrorKind::failed;
 }
@@ -74,7 +74,7 @@ auto guarded(Job&& job) -> decltype(job()) {
     throw Error(ErrorKind::bad_input, error.what());
   } catch (const sim::BadPath& error) {
     throw Error(ErrorKind::bad_input, error.what());
-  } catch (const analysis::Failure& error) {
+  } catch (const base::Failure& error) {
     throw Error(kind_of(error), error.what());
   } catch (const std::invalid_argument& error) {
     throw Error(ErrorKind::bad_argument, error.what());

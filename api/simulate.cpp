@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "analysis/simulate_run.h"
 #include "api/guard.h"
 #include "config/load.h"
 #include "devices/instrument_model.h"
+#include "emulation/simulate_run.h"
 
 namespace navcal::api {
 namespace {
@@ -30,8 +30,8 @@ std::vector<sim::ClockFactor> clocks_of(const std::vector<ClockRate>& clocks) {
 }
 
 /// As on the command line: the shortest decimals that read back as the same numbers.
-analysis::PlaceArguments where_of(const SimulateOptions& options) {
-  analysis::PlaceArguments where;
+emulation::PlaceArguments where_of(const SimulateOptions& options) {
+  emulation::PlaceArguments where;
   if (const auto& place = options.place)
     where.place = fmt::format("{},{},{}", place->latitude_deg, place->longitude_deg, place->height_m);
   if (const auto& field = options.field_uT)
@@ -61,11 +61,11 @@ void expect_files(const std::filesystem::path& capture, const SimulateOptions& o
   }
 }
 
-analysis::SimulateArguments arguments_of(const std::filesystem::path& capture, const SimulateOptions& options) {
+emulation::SimulateArguments arguments_of(const std::filesystem::path& capture, const SimulateOptions& options) {
   expect_files(capture, options);
   if (options.seconds && !(*options.seconds >= kShortest_s && *options.seconds <= kLongest_s))
     refuse(fmt::format("seconds: must be 0.01 to 1e6, not {}", *options.seconds));
-  analysis::SimulateArguments arguments;
+  emulation::SimulateArguments arguments;
   arguments.path = options.path;
   arguments.drive = options.drive;
   arguments.mission = options.mission;
@@ -84,8 +84,8 @@ analysis::SimulateArguments arguments_of(const std::filesystem::path& capture, c
   arguments.capture = capture;
   arguments.truth = options.truth;
   arguments.where = where_of(options);
-  arguments.begin_ns = arguments.where.day_ns().value_or(analysis::kSimulatedBegin_ns);
-  arguments.place = analysis::simulated_place(arguments.where, arguments.begin_ns);
+  arguments.begin_ns = arguments.where.day_ns().value_or(emulation::kSimulatedBegin_ns);
+  arguments.place = emulation::simulated_place(arguments.where, arguments.begin_ns);
   if (!options.config.empty()) arguments.instruments = devices::instrument_model(config::load(options.config));
   return arguments;
 }
@@ -94,11 +94,11 @@ analysis::SimulateArguments arguments_of(const std::filesystem::path& capture, c
 
 Simulation simulate(const std::filesystem::path& capture, const SimulateOptions& options) {
   return guarded_with_progress(options.progress, [&](ProgressRelay& relay) {
-    const analysis::SimulateArguments arguments = arguments_of(capture, options);
-    sim::EffectSet effects = analysis::simulate_effects(arguments);
-    const analysis::SimulatedRun run = analysis::simulate_motion(arguments, effects);
-    analysis::write_simulation(arguments, run, effects, nullptr,
-                               [&](double share) { relay("simulating", share); });
+    const emulation::SimulateArguments arguments = arguments_of(capture, options);
+    sim::EffectSet effects = emulation::simulate_effects(arguments);
+    const emulation::SimulatedRun run = emulation::simulate_motion(arguments, effects);
+    emulation::write_simulation(arguments, run, effects, nullptr,
+                                [&](double share) { relay("simulating", share); });
     Simulation simulation{run.duration_s, {}};
     if (!arguments.place.remark.empty()) simulation.remarks.push_back(arguments.place.remark);
     return simulation;

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/progress.h"
 #include "base/interruptible.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
-#include "cli/option_kinds.h"
-#include "cli/result_file.h"
-#include "cli/shared_options.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/option_kinds.h"
+#include "cli/live/result_file.h"
+#include "cli/live/shared_options.h"
 #include "config/layout/layout_file.h"
 #include "config/vehicle.h"
 #include "identify/conventions/conventions.h"
@@ -73,7 +73,7 @@ void audit(const AuditArguments& arguments) {
   const base::Interruptible interruptible;
   analysis::Audit found;
   for (const std::string& file : arguments.files) {
-    analysis::Progress progress("audit", analysis::Progress::Answer::at_the_end);
+    base::Progress progress("audit", base::Progress::Answer::at_the_end);
     const analysis::KeepGoing keep_going = [&](std::string_view part, double share) {
       progress.show(part, share);
       return !base::Interruptible::interrupted();
@@ -89,7 +89,7 @@ void audit(const AuditArguments& arguments) {
           const analysis::AuditedLog log = analysis::load_audited(request, keep_going);
           found.files.push_back(analysis::audited(log, conventions));
         },
-        analysis::Exit::bad_input);
+        base::Exit::bad_input);
     tell_remarks("navcal", found.files.back().remarks);
     if (base::Interruptible::interrupted()) break;
   }

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "analysis/calibrate_run.h"
-#include "analysis/failure.h"
-#include "analysis/progress.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
-#include "cli/result_file.h"
-#include "cli/shared_options.h"
+#include "base/failure.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
+#include "cli/live/shared_options.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
 #include "report/autopilot_parameters.h"
@@ -41,7 +41,7 @@ int compass_unit(const config::Settings& settings, const std::string& port) {
 
 void write_parameters(const std::string& file, const calib::Report& report, const analysis::CalibrateRun& run) {
   const auto refuse = [&](std::string_view why) {
-    throw analysis::Failure(analysis::Exit::failed, fmt::format("{} was not written: {}", file, why));
+    throw base::Failure(base::Exit::failed, fmt::format("{} was not written: {}", file, why));
   };
   if (run.has_corrected_fields())
     refuse("the autopilot's own calibration is still in the fields, and its parameters replace that one");
@@ -63,7 +63,7 @@ void calibrate(const CalibrateCommandOptions& options) {
   if (!options.report.empty()) history.emplace(settings);
   analysis::CalibrateRun run(settings, history ? &*history : nullptr);
   for (const std::string& file : options.files) {
-    analysis::Progress progress("calibrate");
+    base::Progress progress("calibrate");
     run.play(
         file, [&progress](double share) { progress.show(share); }, window);
   }

@@ -10,10 +10,10 @@
 
 #include "analysis/decode_describe.h"
 #include "analysis/decode_described.h"
-#include "analysis/progress.h"
 #include "base/printable.h"
-#include "cli/commands.h"
+#include "base/progress.h"
 #include "cli/decode_input.h"
+#include "cli/live/commands.h"
 #include "config/described/description_file.h"
 #include "protocols/device_types.h"
 
@@ -43,7 +43,7 @@ std::optional<Date> pivot_of(const DecodeArguments& arguments, Protocol protocol
 template <class Decode, class DescribeFrame>
 analysis::DecodeSummary write_frames(Protocol protocol, DecodeSource& input, analysis::FieldWriter& fields,
                                      const Decode& decode, const DescribeFrame& describe) {
-  analysis::Progress progress("decode");
+  base::Progress progress("decode");
   return decode(
       [&] {
         const protocols::Bytes bytes = input.next();
@@ -103,8 +103,8 @@ void run(const DecodeArguments& arguments) {
                             : arguments.protocol.empty() ? port->protocol()
                                                          : *protocols::protocol_named(arguments.protocol);
   if (protocol == Protocol::described && !description)
-    throw analysis::Failure(analysis::Exit::usage, "a described device is decoded with --device FILE.toml");
-  analysis::Output output(STDOUT_FILENO, "standard output");
+    throw base::Failure(base::Exit::usage, "a described device is decoded with --device FILE.toml");
+  base::Output output(STDOUT_FILENO, "standard output");
   using Format = analysis::FieldWriter::Format;
   analysis::FieldWriter fields(output, arguments.json ? Format::json : Format::text,
                                pivot_of(arguments, protocol));

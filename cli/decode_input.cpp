@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/commands.h"
+#include "cli/live/commands.h"
 #include "record/log/mcap_format.h"
 
 namespace navcal::cli {
@@ -24,8 +24,7 @@ PortBytes::PortBytes(const std::string& file, const std::string& port)
     if (ports[port_].name == port) return;
     names += (names.empty() ? "" : ", ") + ports[port_].name;
   }
-  throw analysis::Failure(analysis::Exit::usage,
-                          fmt::format("{}: no port \"{}\"; its ports: {}", file, port, names));
+  throw base::Failure(base::Exit::usage, fmt::format("{}: no port \"{}\"; its ports: {}", file, port, names));
 }
 
 protocols::Protocol PortBytes::protocol() const { return recording_->settings().ports[port_].protocol; }
@@ -44,8 +43,7 @@ protocols::Bytes PortBytes::next() {
 namespace {
 
 [[noreturn]] void fail(const std::string& name, const char* what) {
-  throw analysis::Failure(analysis::Exit::bad_input,
-                          name + ": " + what + ": " + std::system_category().message(errno));
+  throw base::Failure(base::Exit::bad_input, name + ": " + what + ": " + std::system_category().message(errno));
 }
 
 }  // namespace
@@ -80,10 +78,10 @@ void Input::refuse_recording(protocols::Bytes first) const {
   const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
   const bool capture = text.starts_with("#capture ");
   if (!capture && !text.starts_with(record::kMcapMagic)) return;
-  throw analysis::Failure(analysis::Exit::bad_input,
-                          fmt::format("{}: {}, not the bytes of one device: --port NAME decodes one of its "
-                                      "ports, \"navcal log info\" lists them",
-                                      name_, capture ? "a capture" : "a log"));
+  throw base::Failure(base::Exit::bad_input,
+                      fmt::format("{}: {}, not the bytes of one device: --port NAME decodes one of its "
+                                  "ports, \"navcal log info\" lists them",
+                                  name_, capture ? "a capture" : "a log"));
 }
 
 }  // namespace navcal::cli

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/progress.h"
+#include "base/progress.h"
 #include "protocols/frame.h"
 #include "record/recording.h"
 
@@ -24,7 +24,7 @@ class DecodeSource {
   /// The next bytes, valid until the next call; empty at the end.
   virtual protocols::Bytes next() = 0;
   /// Tells a user who waits how far it has come.
-  virtual void show(analysis::Progress& progress) const = 0;
+  virtual void show(base::Progress& progress) const = 0;
 };
 
 /// A file, or standard input for "-", read from its beginning in large blocks. Throws Failure (bad input, the file
@@ -35,7 +35,7 @@ class Input final : public DecodeSource {
   ~Input() override;
 
   protocols::Bytes next() override;
-  void show(analysis::Progress& progress) const override { progress.show_bytes(done_, size_); }
+  void show(base::Progress& progress) const override { progress.show_bytes(done_, size_); }
 
  private:
   static constexpr std::size_t kBlock = std::size_t{256} << 10;
@@ -62,7 +62,7 @@ class PortBytes final : public DecodeSource {
   /// When the bytes of the newest next() arrived; nullopt before the first.
   [[nodiscard]] std::optional<std::int64_t> arrival_ns() const { return arrival_ns_; }
   protocols::Bytes next() override;
-  void show(analysis::Progress& progress) const override { progress.show(recording_->progress()); }
+  void show(base::Progress& progress) const override { progress.show(recording_->progress()); }
   /// Remarks for the user once the end is reached: "last line cut short".
   [[nodiscard]] const std::vector<std::string>& remarks() const { return recording_->remarks(); }
 

@@ -9,12 +9,12 @@
 
 #include "analysis/device_check.h"
 #include "analysis/device_guess.h"
-#include "analysis/failure.h"
-#include "analysis/progress.h"
+#include "base/failure.h"
 #include "base/printable.h"
-#include "cli/commands.h"
+#include "base/progress.h"
 #include "cli/decode_input.h"
-#include "cli/result_file.h"
+#include "cli/live/commands.h"
+#include "cli/live/result_file.h"
 #include "config/described/description_file.h"
 #include "record/log/mcap_format.h"
 
@@ -36,7 +36,7 @@ std::string only_port(const std::string& file) {
   const auto& ports = recording->settings().ports;
   if (ports.size() == 1) return ports.front().name;
   for (const auto& port : ports) names += (names.empty() ? "" : ", ") + port.name;
-  throw analysis::Failure(analysis::Exit::usage, file + ": --port NAME says which of its ports: " + names);
+  throw base::Failure(base::Exit::usage, file + ": --port NAME says which of its ports: " + names);
 }
 
 /// Bytes of one device: a file of them (`-` is standard input), or one port of a capture or log.
@@ -57,7 +57,7 @@ class DeviceCapture {
     const protocols::Bytes bytes = port_->next();
     return {bytes, port_->arrival_ns()};
   }
-  void show(analysis::Progress& progress) const {
+  void show(base::Progress& progress) const {
     if (port_) {
       port_->show(progress);
     } else {
@@ -86,7 +86,7 @@ protocols::described::Description read_device_file(const std::string& file) {
 void check(const CheckArguments& arguments) {
   const auto description = read_device_file(arguments.description);
   DeviceCapture capture(arguments.capture, arguments.port);
-  analysis::Progress progress("devices");
+  base::Progress progress("devices");
   const auto findings = analysis::check_device(description, [&] {
     const auto piece = capture.next();
     capture.show(progress);

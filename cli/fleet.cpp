@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "base/printable.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
-#include "cli/result_file.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 #include "fleet/causes/answer_report.h"
 #include "fleet/causes/read_missions.h"
 #include "fleet/jobs.h"
@@ -32,7 +32,7 @@ void make_fleet_plan(fleet::PlanRequest request) {
   request.threads = base::threads_or_cores();
   fleet::PlanSummary summary;
   {
-    analysis::Progress progress("fleet plan", analysis::Progress::Answer::at_the_end);
+    base::Progress progress("fleet plan", base::Progress::Answer::at_the_end);
     summary = fleet::make_plan(request, [&](std::string_view what, double done) { progress.show(what, done); });
   }
   tell_remarks("navcal fleet", summary.remarks);
@@ -58,10 +58,10 @@ void run_fleet_tasks(const std::string& folder, const std::string& tasks, bool a
     if (!attempt.why.empty())
       fmt::print(stderr, "navcal fleet: task {}: {}\n", task.number, base::printable(attempt.why));
   });
-  if (ended < wanted.size()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
+  if (ended < wanted.size()) throw base::Failure(base::Exit::failed, "interrupted");
   if (open > 0) {
-    throw analysis::Failure(analysis::Exit::failed,
-                            fmt::format("{} of {} tasks have no result; they can be tried again", open, ended));
+    throw base::Failure(base::Exit::failed,
+                        fmt::format("{} of {} tasks have no result; they can be tried again", open, ended));
   }
 }
 
@@ -86,8 +86,8 @@ void tell_causes(const CausesOptions& options) {
   const fleet::ResultStore results(plan.folder);
   fleet::MissionsRead read = fleet::read_missions(plan, results);
   if (read.missions.empty()) {
-    throw analysis::Failure(
-        analysis::Exit::bad_input,
+    throw base::Failure(
+        base::Exit::bad_input,
         fmt::format(
             "{}: no mission has an answer of the job evidence ({} open, {} failed); plan it with: navcal fleet "
             "plan FOLDER -o {} --job evidence, and do it with: navcal fleet submit {} --local",
@@ -101,9 +101,9 @@ void tell_causes(const CausesOptions& options) {
   const unsigned threads = base::threads_or_cores(options.threads);
   fleet::FleetAnswer answer;
   {
-    analysis::Progress progress("fleet causes", analysis::Progress::Answer::at_the_end);
+    base::Progress progress("fleet causes", base::Progress::Answer::at_the_end);
     answer = fleet::answer_of_fleet(missions, threads, [&](double done) {
-      if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
+      if (base::Interruptible::interrupted()) throw base::Failure(base::Exit::failed, "interrupted");
       progress.show("comparing causes", done);
     });
   }

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/failure.h"
-#include "analysis/progress.h"
+#include "base/failure.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "base/printable.h"
-#include "cli/commands.h"
-#include "cli/result_file.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/result_file.h"
 #include "fleet/plan.h"
 #include "fleet/slurm.h"
 #include "fleet/slurm_run.h"
@@ -42,9 +42,9 @@ void conclude(const fleet::Plan& plan, const std::string& hint) {
   }
   fmt::print("{} tasks: {} done, {} failed, {} open\n", plan.tasks.size(), done, failed, open);
   if (failed > 0) fmt::print("Errors: navcal fleet list {}\n", plan.folder.string());
-  if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted; " + hint);
+  if (base::Interruptible::interrupted()) throw base::Failure(base::Exit::failed, "interrupted; " + hint);
   if (open > 0) {
-    throw analysis::Failure(analysis::Exit::failed, fmt::format("{} tasks have no result; {}", open, hint));
+    throw base::Failure(base::Exit::failed, fmt::format("{} tasks have no result; {}", open, hint));
   }
 }
 
@@ -55,7 +55,7 @@ void submit_locally(const SubmitOptions& options, const fleet::Plan& plan) {
   const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, cores / jobs);
   const std::size_t open = open_tasks(plan, results.states()).size();
   {
-    analysis::Progress progress("fleet submit", analysis::Progress::Answer::at_the_end);
+    base::Progress progress("fleet submit", base::Progress::Answer::at_the_end);
     std::size_t ended = 0;
     fleet::run_locally(plan, {jobs, threads}, [&](const fleet::Task& task, const fleet::Attempt& attempt) {
       ++ended;
@@ -75,7 +75,7 @@ void submit_to_slurm(const SubmitOptions& options, const fleet::Plan& plan) {
   by_slurm.poll = std::chrono::milliseconds(static_cast<int>(options.poll_s * 1000));
   std::vector<std::string> remarks;
   try {
-    analysis::Progress progress("fleet submit", analysis::Progress::Answer::at_the_end);
+    base::Progress progress("fleet submit", base::Progress::Answer::at_the_end);
     remarks = fleet::run_by_slurm(plan, by_slurm, [&](const fleet::SlurmProgress& now) {
       std::string words = fmt::format("{} of {} tasks, {} elements running, {} pending", now.ended, now.tasks,
                                       now.running, now.pending);
@@ -83,7 +83,7 @@ void submit_to_slurm(const SubmitOptions& options, const fleet::Plan& plan) {
       progress.show(words, now.tasks == 0 ? 1 : static_cast<double>(now.ended) / static_cast<double>(now.tasks));
     });
   } catch (const fleet::SlurmError& error) {
-    throw analysis::Failure(analysis::Exit::failed, std::string("Slurm: ") + error.what());
+    throw base::Failure(base::Exit::failed, std::string("Slurm: ") + error.what());
   }
   tell_remarks("navcal fleet", remarks);
   conclude(plan, base::Interruptible::interrupted()

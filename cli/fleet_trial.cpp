@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "analysis/failure.h"
-#include "analysis/progress.h"
+#include "base/failure.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
-#include "cli/result_file.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 
 namespace navcal::cli {
 namespace {
@@ -28,7 +28,7 @@ void record_fleet(const FleetTrialArguments& arguments) {
   const validation::FleetCase fleet = validation::drawn_fleet(arguments.options);
   with_exit_statuses([&] {
     const base::Interruptible interruptible;
-    analysis::Progress progress("fleet trial record");
+    base::Progress progress("fleet trial record");
     validation::write_fleet(fleet, arguments.folder, base::threads_or_cores(),
                             [&](double done) { progress.show(done); });
     write_result(arguments.truth, validation::truth_text(fleet));
@@ -43,7 +43,7 @@ void score_fleet(const FleetTrialArguments& arguments) {
     try {
       return read(read_file(file));
     } catch (const std::runtime_error& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
+      throw base::Failure(base::Exit::bad_input, file + ": " + error.what());
     }
   };
   const validation::FleetTruth truth = named(arguments.truth, validation::read_fleet_truth);

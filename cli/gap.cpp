@@ -14,17 +14,17 @@
 #include <system_error>
 #include <vector>
 
-#include "analysis/chosen_vehicle.h"
-#include "analysis/progress.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
+#include "base/progress.h"
 #include "cli/gap_request.h"
-#include "cli/result_file.h"
-#include "cli/shared_options.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
+#include "cli/live/shared_options.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
 #include "diagnosis/diagnose_layout.h"
+#include "emulation/chosen_vehicle.h"
 #include "gap/verdict/request.h"
 #include "record/recording.h"
 #include "record/seen_recordings.h"
@@ -61,23 +61,22 @@ ExportFile export_file(const std::string& wanted, const fs::path& origin) {
   const std::string name = wanted.substr(0, equals);
   const auto simulator = report::simulator_named(name);
   if (!simulator) {
-    throw analysis::Failure(
-        analysis::Exit::usage,
-        fmt::format("--export {}: there is no simulator {}; known are {}", wanted, name, known_simulators()));
+    throw base::Failure(base::Exit::usage, fmt::format("--export {}: there is no simulator {}; known are {}",
+                                                       wanted, name, known_simulators()));
   }
   if (equals == std::string::npos)
     return {*simulator, origin.stem().string() + std::string(report::ending_of(*simulator))};
   const std::string file = wanted.substr(equals + 1);
   if (file.empty() || file == "-")
-    throw analysis::Failure(analysis::Exit::usage, fmt::format("--export {}: name a file after =", wanted));
+    throw base::Failure(base::Exit::usage, fmt::format("--export {}: name a file after =", wanted));
   return {*simulator, file};
 }
 
 void expect_no_such_file(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(file, error))) return;
-  throw analysis::Failure(analysis::Exit::failed,
-                          file.string() + ": the file exists and is not overwritten; --overwrite replaces it");
+  throw base::Failure(base::Exit::failed,
+                      file.string() + ": the file exists and is not overwritten; --overwrite replaces it");
 }
 
 void add_export_options(CLI::App* command, ExportOptions& options) {
@@ -150,7 +149,7 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (!options.source.config.empty()) files.settings = config::load(options.source.config);
   diagnosis::LayoutRequest request{.layout = layout, .excluded = options.source.excluded};
   request.seed = options.bank_seed;
-  analysis::Progress progress("gap", analysis::Progress::Answer::at_the_end);
+  base::Progress progress("gap", base::Progress::Answer::at_the_end);
   const auto show = [&](std::string_view what, double done) { progress.show(what, done); };
   gap::Diagnosis answer = diagnosis::diagnose(request, diagnosis::load(files, show), show);
   answer.remarks.insert(answer.remarks.end(), repeated.begin(), repeated.end());
@@ -163,7 +162,7 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
     throw std::invalid_argument(
         "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
   const gap::Request request = gap_request_of(options);
-  analysis::Progress progress("gap", analysis::Progress::Answer::at_the_end);
+  base::Progress progress("gap", base::Progress::Answer::at_the_end);
   return gap::diagnose(request, [&](std::string_view what, double done) { progress.show(what, done); });
 }
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "analysis/failure.h"
-#include "analysis/progress.h"
+#include "base/failure.h"
 #include "base/interruptible.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
-#include "cli/result_file.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 #include "report/layout_score_report.h"
 #include "validation/layout_recordings.h"
 
@@ -35,10 +35,10 @@ void record_layouts(GapLayoutsRecordArguments arguments) {
           options.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
         expect_folder_of(options.truth);
         const base::Interruptible interruptible;
-        analysis::Progress progress("gap layouts record");
+        base::Progress progress("gap layouts record");
         validation::write_layout_recordings(options, [&](double share) { progress.show(share); });
       },
-      analysis::Exit::bad_input);
+      base::Exit::bad_input);
   fmt::print("{} recordings in {}, truth in {}\n",
              options.vehicles * options.nominal + validation::kRecordingsPerCase * options.cases,
              options.folder.string(), options.truth.string());
@@ -50,7 +50,7 @@ auto blaming(const std::string& file, const Work& work) {
   try {
     return work();
   } catch (const std::runtime_error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
+    throw base::Failure(base::Exit::bad_input, file + ": " + error.what());
   }
 }
 

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/failure.h"
-#include "analysis/progress.h"
+#include "base/failure.h"
 #include "base/interruptible.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
+#include "base/progress.h"
 #include "cli/gap_request.h"
-#include "cli/result_file.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 #include "config/mission_limits.h"
 #include "config/mission_text.h"
 #include "gap/design/next_mission.h"
@@ -46,8 +46,8 @@ config::MissionLimits limits_of(const GapNextOptions& options) {
 void expect_writable(const GapNextOptions& options) {
   std::error_code error;
   if (!options.overwrite && std::filesystem::exists(options.mission, error)) {
-    throw analysis::Failure(analysis::Exit::usage,
-                            options.mission + ": this mission is there already; --overwrite replaces it");
+    throw base::Failure(base::Exit::usage,
+                        options.mission + ": this mission is there already; --overwrite replaces it");
   }
   const report::GapSource& asked = options.asked.source;
   std::vector<std::filesystem::path> inputs(asked.missions.begin(), asked.missions.end());
@@ -72,10 +72,10 @@ void plan_next(const GapNextOptions& options) {
     throw std::invalid_argument("--vehicle: missions are planned for vehicle files only, not for layouts");
   }
   const base::Interruptible interruptible;
-  analysis::Progress progress("gap next", analysis::Progress::Answer::at_the_end);
+  base::Progress progress("gap next", base::Progress::Answer::at_the_end);
   const gap::Progress show = [&](std::string_view what, double done) {
     if (base::Interruptible::interrupted())
-      throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
+      throw base::Failure(base::Exit::failed, "interrupted: nothing was written");
     progress.show(what, done);
   };
   const auto study = gap::study(gap_request_of(options.asked), show);

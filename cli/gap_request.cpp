@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <variant>
 
-#include "analysis/chosen_vehicle.h"
-#include "analysis/failure.h"
-#include "cli/option_kinds.h"
+#include "base/failure.h"
+#include "cli/live/option_kinds.h"
 #include "config/load.h"
+#include "emulation/chosen_vehicle.h"
 #include "gap/data/silence.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
@@ -19,7 +19,7 @@ namespace {
 void expect_effects(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (!sim::make_effect(name))
-      throw analysis::Failure(analysis::Exit::usage, "--exclude " + name + ": " + sim::unknown_effect(name));
+      throw base::Failure(base::Exit::usage, "--exclude " + name + ": " + sim::unknown_effect(name));
   }
 }
 
@@ -27,7 +27,7 @@ void expect_instrument(const std::string& name) {
   try {
     static_cast<void>(gap::quantities_named(name));
   } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, std::string("--without: ") + error.what());
+    throw base::Failure(base::Exit::usage, std::string("--without: ") + error.what());
   }
 }
 
@@ -49,7 +49,7 @@ void expect_instruments(const std::vector<std::string>& names) {
 
 std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
   if (options.source.vehicle.empty()) return std::nullopt;
-  const analysis::ChosenVehicle vehicle = analysis::load_chosen_vehicle(options.source.vehicle);
+  const emulation::ChosenVehicle vehicle = emulation::load_chosen_vehicle(options.source.vehicle);
   const auto* layout = std::get_if<config::Layout>(&vehicle);
   return layout == nullptr ? std::nullopt : std::optional(*layout);
 }
@@ -57,7 +57,7 @@ std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
 gap::Request gap_request_of(const GapRequestOptions& options) {
   gap::Request request;
   if (!options.source.vehicle.empty()) {
-    request.vehicle = std::get<config::VehicleSettings>(analysis::load_chosen_vehicle(options.source.vehicle));
+    request.vehicle = std::get<config::VehicleSettings>(emulation::load_chosen_vehicle(options.source.vehicle));
   }
   expect_effects(options.source.excluded);
   request.missions = {options.source.missions.begin(), options.source.missions.end()};

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/place_arguments.h"
-#include "cli/shared_options.h"
+#include "cli/live/shared_options.h"
 #include "config/layout.h"
+#include "emulation/place_arguments.h"
 #include "gap/verdict/request.h"
 #include "report/gap_words.h"
 
@@ -19,7 +19,7 @@ namespace navcal::cli {
 /// Options that every command has which diagnoses recordings.
 struct GapRequestOptions : WindowOptions {
   report::GapSource source;
-  analysis::PlaceArguments where;
+  emulation::PlaceArguments where;
   std::vector<std::string> without;
   std::filesystem::path cache;
   int bank_missions = gap::Request{}.bank_missions;
@@ -34,10 +34,10 @@ void add_gap_request(CLI::App& command, GapRequestOptions& options);
 /// The layout of --vehicle, if it is one. Throws config::Error.
 [[nodiscard]] std::optional<config::Layout> layout_of(const GapRequestOptions& options);
 
-/// The request for a vehicle without a layout. Throws config::Error, analysis::Failure.
+/// The request for a vehicle without a layout. Throws config::Error, base::Failure.
 [[nodiscard]] gap::Request gap_request_of(const GapRequestOptions& options);
 
-/// Throws analysis::Failure (usage) for a name of --without that is no instrument.
+/// Throws base::Failure (usage) for a name of --without that is no instrument.
 void expect_instruments(const std::vector<std::string>& names);
 
 }  // namespace navcal::cli

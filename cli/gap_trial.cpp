@@ -8,9 +8,9 @@
 #include <memory>
 #include <optional>
 
-#include "analysis/progress.h"
 #include "base/interruptible.h"
-#include "cli/commands.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
 #include "record/whole_file.h"
 #include "report/validation_report.h"
 #include "report/validation_words.h"
@@ -70,7 +70,7 @@ std::vector<validation::TrialCase> cases_of(const GapTrialCommandOptions& option
     try {
       numbers = validation::case_numbers(validation::trial_arms_named(options.arms), options.cases);
     } catch (const std::invalid_argument& error) {
-      throw analysis::Failure(analysis::Exit::usage, std::string("--arms: ") + error.what());
+      throw base::Failure(base::Exit::usage, std::string("--arms: ") + error.what());
     }
   }
   std::vector<validation::TrialCase> cases;
@@ -125,7 +125,7 @@ void run_active_trial(const GapTrialCommandOptions& options) {
   active.timeout = std::chrono::seconds(options.timeout_s);
   std::vector<validation::ActiveResult> results;
   {
-    analysis::Progress progress("gap trial --active");
+    base::Progress progress("gap trial --active");
     for (std::size_t i = 0; i < cases.size() && !base::Interruptible::interrupted(); ++i) {
       if (auto result = validation::run_active(cases[i], seals[i], options.seed, active))
         results.push_back(std::move(*result));
@@ -140,14 +140,14 @@ void run_active_trial(const GapTrialCommandOptions& options) {
     json->commit();
   }
   if (results.size() < cases.size()) {
-    throw analysis::Failure(analysis::Exit::failed,
-                            fmt::format("interrupted: {} of {} cases are scored", results.size(), cases.size()));
+    throw base::Failure(base::Exit::failed,
+                        fmt::format("interrupted: {} of {} cases are scored", results.size(), cases.size()));
   }
 }
 
 void run(GapTrialCommandOptions options) {
   if ((options.cases > 0) == !options.only.empty())
-    throw analysis::Failure(analysis::Exit::usage, "either --cases N or --only CASE is required");
+    throw base::Failure(base::Exit::usage, "either --cases N or --only CASE is required");
   if (options.active) return run_active_trial(options);
   options.asking.timeout = std::chrono::seconds(options.timeout_s);
   const base::Interruptible interruptible;
@@ -159,7 +159,7 @@ void run(GapTrialCommandOptions options) {
 
   validation::TrialRun answered;
   {
-    analysis::Progress progress("gap trial");
+    base::Progress progress("gap trial");
     std::size_t done = 0;
     answered = validation::ask_all(cases, seals, options.asking, [&](const validation::TrialResult& result) {
       fmt::print(out, "case {:4} answered in {:.1f} s: {}\n", result.drawn.number, result.seconds,
@@ -171,9 +171,8 @@ void run(GapTrialCommandOptions options) {
   const report::TrialReport report = report_on(options, cases.size(), std::move(answered));
   outputs.write(report);
   if (!report.ended_early.empty()) {
-    throw analysis::Failure(
-        analysis::Exit::failed,
-        fmt::format("{}: {} of {} cases are scored", report.ended_early, report.results.size(), report.asked_for));
+    throw base::Failure(base::Exit::failed, fmt::format("{}: {} of {} cases are scored", report.ended_early,
+                                                        report.results.size(), report.asked_for));
   }
 }
 

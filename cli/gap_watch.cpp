@@ -12,21 +12,21 @@
 #include <string>
 #include <utility>
 
-#include "analysis/chosen_vehicle.h"
-#include "analysis/failure.h"
-#include "analysis/place_arguments.h"
-#include "analysis/progress.h"
+#include "base/failure.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
+#include "base/progress.h"
 #include "cli/gap_request.h"
-#include "cli/result_file.h"
-#include "cli/shared_options.h"
-#include "cli/watch_stream.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
+#include "cli/live/shared_options.h"
+#include "cli/live/watch_stream.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
+#include "emulation/chosen_vehicle.h"
+#include "emulation/place_arguments.h"
 #include "gap/data/mission.h"
 #include "gap/watch/live_records.h"
 #include "gap/watch/state_file.h"
@@ -43,7 +43,7 @@ struct GapWatchOptions {
   int port = 2947;
   std::string vehicle, config, recording, state, metrics;
   std::filesystem::path cache;
-  analysis::PlaceArguments where;
+  emulation::PlaceArguments where;
   double false_alarms_per_h = gap::Watch::Options{}.false_alarms_per_h;
   double status_min = 5;
   double seconds = 0;
@@ -62,7 +62,7 @@ struct Setting {
 void print_line(const std::string& text) {
   std::printf("%s\n", text.c_str());
   // Whoever reads a pipe wants to see it now.
-  if (std::fflush(stdout) != 0) throw analysis::Failure(analysis::Exit::failed, "standard output was closed");
+  if (std::fflush(stdout) != 0) throw base::Failure(base::Exit::failed, "standard output was closed");
 }
 
 /// Writes events, and keeps state and metrics.
@@ -106,10 +106,9 @@ class Teller {
 std::string address_of(const GapWatchOptions& options) { return fmt::format("{}:{}", options.host, options.port); }
 
 [[noreturn]] void fail_to_connect(const GapWatchOptions& options, const WatchStream& stream) {
-  throw analysis::Failure(
-      analysis::Exit::failed,
-      fmt::format("no connection to {} port {}: {}. Is navcald running there? Try navcal doctor.", options.host,
-                  options.port, stream.problem()));
+  throw base::Failure(base::Exit::failed,
+                      fmt::format("no connection to {} port {}: {}. Is navcald running there? Try navcal doctor.",
+                                  options.host, options.port, stream.problem()));
 }
 
 /// Waits for the first fix of a daemon. Empty: the time is over, or the user has ended it.
@@ -136,7 +135,7 @@ std::optional<gap::EarthField> field_by_fix(const GapWatchOptions& options, Cloc
 std::optional<Setting> setting_of(const GapWatchOptions& options, Clock::time_point end) {
   Setting setting;
   if (!options.vehicle.empty()) {
-    const auto vehicle = analysis::load_chosen_vehicle(options.vehicle);
+    const auto vehicle = emulation::load_chosen_vehicle(options.vehicle);
     if (!std::holds_alternative<config::VehicleSettings>(vehicle))
       throw std::invalid_argument("--vehicle: a vehicle file is needed; the watch has no model of a layout yet");
     setting.vehicle = std::get<config::VehicleSettings>(vehicle);
@@ -148,9 +147,9 @@ std::optional<Setting> setting_of(const GapWatchOptions& options, Clock::time_po
   const auto now_ns =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
           .count();
-  const auto given = analysis::chosen_field_uT(options.where, now_ns);
+  const auto given = emulation::chosen_field_uT(options.where, now_ns);
   if (!options.recording.empty()) {
-    analysis::Progress progress("gap watch", analysis::Progress::Answer::at_the_end);
+    base::Progress progress("gap watch", base::Progress::Answer::at_the_end);
     const gap::Mission mission = gap::load_mission(
         options.recording, [&](double done) { progress.show("reading", done); }, setting.settings);
     if (const auto problem = mission.shortcoming(); !problem.empty())
@@ -202,10 +201,10 @@ void watch_daemon(const GapWatchOptions& options, gap::Watch& watch, Clock::time
 }
 
 gap::WatchReference reference_of(const gap::ReferenceRequest& request) {
-  analysis::Progress progress("gap watch", analysis::Progress::Answer::at_the_end);
+  base::Progress progress("gap watch", base::Progress::Answer::at_the_end);
   return gap::make_reference(request, [&](double done) {
     if (base::Interruptible::interrupted())
-      throw analysis::Failure(analysis::Exit::failed, "interrupted before the watch began");
+      throw base::Failure(base::Exit::failed, "interrupted before the watch began");
     progress.show("null missions", done);
   });
 }

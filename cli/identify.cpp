@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "analysis/progress.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
+#include "cli/live/shared_options.h"
 #include "cli/recorded_motions.h"
-#include "cli/result_file.h"
-#include "cli/shared_options.h"
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "identify/answer/identification.h"
@@ -39,7 +39,7 @@ identify::Identification identification_of(const IdentifyCommandOptions& options
   std::optional<config::Settings> settings;
   if (!options.config.empty()) settings = config::load(options.config);
   request.advise = !options.no_advice;
-  analysis::Progress progress("identify", analysis::Progress::Answer::at_the_end);
+  base::Progress progress("identify", base::Progress::Answer::at_the_end);
   record::SeenRecordings seen;
   request.recordings = load_motions(options.files, settings, progress, seen, window);
   request.held_out = load_motions(options.held_out, settings, progress, seen, window);
@@ -56,8 +56,7 @@ void write_identification(const IdentifyCommandOptions& options, const identify:
 
 void run_identify(const IdentifyCommandOptions& options) {
   expect_results(inputs_of(options), {options.output, options.json, options.report});
-  with_exit_statuses([&] { write_identification(options, identification_of(options)); },
-                     analysis::Exit::bad_input);
+  with_exit_statuses([&] { write_identification(options, identification_of(options)); }, base::Exit::bad_input);
 }
 
 }  // namespace

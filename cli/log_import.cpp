@@ -10,8 +10,8 @@
 #include <string>
 
 #include "analysis/import/import_log.h"
-#include "cli/commands.h"
-#include "cli/result_file.h"
+#include "cli/live/commands.h"
+#include "cli/live/result_file.h"
 #include "protocols/device_types.h"
 
 namespace navcal::cli {
@@ -27,8 +27,8 @@ struct ImportArguments {
 
 void expect_known_format(const std::string& name) {
   if (name.empty() || analysis::import_format_named(name) != nullptr) return;
-  throw analysis::Failure(analysis::Exit::usage,
-                          fmt::format("--format {}: known are {}", name, analysis::import_format_names()));
+  throw base::Failure(base::Exit::usage,
+                      fmt::format("--format {}: known are {}", name, analysis::import_format_names()));
 }
 
 void import_file(const ImportArguments& arguments) {
@@ -48,7 +48,7 @@ void import_file(const ImportArguments& arguments) {
                         }));
   }
   if (std::filesystem::exists(arguments.to))
-    throw analysis::Failure(analysis::Exit::failed, arguments.to + ": there is a file already");
+    throw base::Failure(base::Exit::failed, arguments.to + ": there is a file already");
   const auto report = run_log_job([&](const record::Progress& progress) {
     return device ? analysis::import_bytes(arguments.file, *device, arguments.baud, arguments.to, progress)
                   : analysis::import_log(arguments.file, arguments.to, arguments.options, progress);

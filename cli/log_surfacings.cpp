@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "analysis/surfacing_run.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
-#include "cli/result_file.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"
 #include "report/surfacings_report.h"

@@ -6,9 +6,9 @@
 
 #include "analysis/noise/noise_run.h"
 #include "analysis/noise/noise_settings.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
-#include "cli/result_file.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"
 #include "report/noise_report.h"
@@ -26,7 +26,7 @@ struct NoiseCommandOptions {
 void expect_new(const std::string& file) {
   std::error_code error;
   if (file.empty() || !std::filesystem::exists(std::filesystem::symlink_status(file, error))) return;
-  throw analysis::Failure(analysis::Exit::failed, file + ": the file exists and is not overwritten");
+  throw base::Failure(base::Exit::failed, file + ": the file exists and is not overwritten");
 }
 
 void expect_outputs(const NoiseCommandOptions& options) {
@@ -38,8 +38,8 @@ void write_configuration(const NoiseCommandOptions& options, const analysis::Noi
                          const config::Settings& settings) {
   const std::string toml = analysis::noise_configuration(report, settings);
   if (toml.empty())
-    throw analysis::Failure(analysis::Exit::failed,
-                            options.write + ": not written, because no noise of [instruments] was found");
+    throw base::Failure(base::Exit::failed,
+                        options.write + ": not written, because no noise of [instruments] was found");
   expect_new(options.write);
   write_result(options.write, toml);
 }

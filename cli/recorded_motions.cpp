@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/recorded_motions.h"
 
-#include "cli/result_file.h"
+#include "cli/live/result_file.h"
 
 namespace navcal::cli {
 
 std::vector<identify::RecordedMotion> load_motions(const std::vector<std::string>& files,
                                                    const std::optional<config::Settings>& stated,
-                                                   analysis::Progress& progress, record::SeenRecordings& seen,
+                                                   base::Progress& progress, record::SeenRecordings& seen,
                                                    const record::TimeWindow& window) {
   std::vector<identify::RecordedMotion> motions;
   for (const std::string& file : files) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/progress.h"
+#include "base/progress.h"
 #include "config/settings.h"
 #include "identify/data/recorded_motion.h"
 #include "record/seen_recordings.h"
@@ -17,7 +17,7 @@ namespace navcal::cli {
 /// is used. Throws record::BadRecording.
 [[nodiscard]] std::vector<identify::RecordedMotion> load_motions(const std::vector<std::string>& files,
                                                                  const std::optional<config::Settings>& stated,
-                                                                 analysis::Progress& progress,
+                                                                 base::Progress& progress,
                                                                  record::SeenRecordings& seen,
                                                                  const record::TimeWindow& window = {});
 

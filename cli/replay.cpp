@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/output.h"
-#include "analysis/progress.h"
 #include "analysis/replay_run.h"
+#include "base/output.h"
 #include "base/printable.h"
-#include "cli/commands.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
 #include "config/load.h"
 #include "record/json/message_json.h"
 #include "record/recording.h"
@@ -28,7 +28,7 @@ struct ReplayCommandOptions {
 /// Samples as lines, in the order in which the pipeline makes them.
 class Printer : public analysis::ReplaySink {
  public:
-  Printer(const config::Settings& settings, analysis::Output& output) : settings_(settings), output_(output) {}
+  Printer(const config::Settings& settings, base::Output& output) : settings_(settings), output_(output) {}
   void on_sample(const instruments::Sample& sample) override {
     if (std::holds_alternative<instruments::SkySample>(sample.value)) return;  // no line of the contract
     line_.clear();
@@ -72,7 +72,7 @@ class Printer : public analysis::ReplaySink {
 
  private:
   const config::Settings& settings_;
-  analysis::Output& output_;
+  base::Output& output_;
   pipeline::UtcMapping mapping_;
   std::string line_;
 };
@@ -86,7 +86,7 @@ void tell(const analysis::ReplayRun& run, std::size_t& told) {
 void replay(const ReplayCommandOptions& options) {
   auto recording = record::Recording::open(options.files.front());
   const auto settings = options.config.empty() ? recording->settings() : config::load(options.config);
-  analysis::Output output(STDOUT_FILENO, "standard output");
+  base::Output output(STDOUT_FILENO, "standard output");
   Printer printer(settings, output);
   analysis::ReplayRun run(settings);
   std::size_t told = 0;
@@ -94,7 +94,7 @@ void replay(const ReplayCommandOptions& options) {
     run.open(recording ? std::move(recording) : record::Recording::open(file), file);
     tell(run, told);
     {
-      analysis::Progress progress("replay");
+      base::Progress progress("replay");
       while (run.step(printer)) progress.show(run.progress());
     }
     tell(run, told);

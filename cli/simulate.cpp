@@ -5,15 +5,15 @@
 #include <memory>
 #include <optional>
 
-#include "analysis/chosen_vehicle.h"
-#include "analysis/progress.h"
-#include "analysis/simulate_run.h"
 #include "base/interruptible.h"
-#include "cli/commands.h"
-#include "cli/result_file.h"
-#include "cli/shared_options.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/result_file.h"
+#include "cli/live/shared_options.h"
 #include "config/load.h"
 #include "devices/instrument_model.h"
+#include "emulation/chosen_vehicle.h"
+#include "emulation/simulate_run.h"
 #include "report/simulate_page.h"
 #include "sim/effects/choice.h"
 #include "sim/layout/effects/layout_effects.h"
@@ -23,22 +23,22 @@ namespace navcal::cli {
 namespace {
 
 struct SimulateCommandOptions {
-  analysis::SimulateArguments arguments;
+  emulation::SimulateArguments arguments;
   bool list_effects = false;
 };
 
-void run(const analysis::SimulateArguments& arguments) {
-  sim::EffectSet effects = analysis::simulate_effects(arguments);
-  const analysis::SimulatedRun run = analysis::simulate_motion(arguments, effects);
+void run(const emulation::SimulateArguments& arguments) {
+  sim::EffectSet effects = emulation::simulate_effects(arguments);
+  const emulation::SimulatedRun run = emulation::simulate_motion(arguments, effects);
   if (!run.remark.empty()) fmt::print(stderr, "navcal simulate: {}\n", run.remark);
-  std::optional<analysis::SimulateHistory> history;
+  std::optional<emulation::SimulateHistory> history;
   if (!arguments.report.empty())
     history.emplace(sim::recording_ports(arguments.instruments, run.commands), arguments.begin_ns, run.duration_s);
   const base::Interruptible interruptible;
-  analysis::Progress progress("simulate");
-  analysis::write_simulation(arguments, run, effects, history ? &*history : nullptr, [&progress](double share) {
+  base::Progress progress("simulate");
+  emulation::write_simulation(arguments, run, effects, history ? &*history : nullptr, [&progress](double share) {
     if (base::Interruptible::interrupted())
-      throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
+      throw base::Failure(base::Exit::failed, "interrupted: nothing was written");
     progress.show(share);
   });
   if (history) {
@@ -60,19 +60,18 @@ void simulate(SimulateCommandOptions& options) {
   auto& arguments = options.arguments;
   const int given = int{!arguments.path.empty()} + int{!arguments.drive.empty()} + int{!arguments.mission.empty()};
   if (given != 1) {
-    throw analysis::Failure(analysis::Exit::usage, "one of --path, --drive and --mission is required");
+    throw base::Failure(base::Exit::usage, "one of --path, --drive and --mission is required");
   }
-  if (arguments.capture.empty())
-    throw analysis::Failure(analysis::Exit::usage, "-o FILE.cap is required: the recording");
+  if (arguments.capture.empty()) throw base::Failure(base::Exit::usage, "-o FILE.cap is required: the recording");
   expect_not_ending(arguments.capture, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
   expect_no_overwriting({arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.config,
                          arguments.effects_file},
                         {arguments.capture, arguments.truth, arguments.report});
-  arguments.begin_ns = arguments.where.day_ns().value_or(analysis::kSimulatedBegin_ns);
-  arguments.place = analysis::simulated_place(arguments.where, arguments.begin_ns);
+  arguments.begin_ns = arguments.where.day_ns().value_or(emulation::kSimulatedBegin_ns);
+  arguments.place = emulation::simulated_place(arguments.where, arguments.begin_ns);
   if (!arguments.place.remark.empty()) std::fprintf(stderr, "navcal: %s\n", arguments.place.remark.c_str());
   if (!arguments.config.empty()) arguments.instruments = configured_instruments(arguments.config);
-  arguments.layout = analysis::layout_in(arguments.vehicle);
+  arguments.layout = emulation::layout_in(arguments.vehicle);
   run(arguments);
 }
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <string>
 
-#include "analysis/progress.h"
 #include "analysis/thesis/thesis_results.h"
-#include "cli/commands.h"
-#include "cli/result_file.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/result_file.h"
 #include "report/thesis_page.h"
 
 namespace navcal::cli {
@@ -19,8 +19,7 @@ struct ThesisCommandOptions {
 
 void expect_thesis_outputs(const ThesisCommandOptions& options) {
   if (options.page.empty() && options.json.empty())
-    throw analysis::Failure(analysis::Exit::usage,
-                            "thesis: nothing to write; give --report FILE.html or --json FILE");
+    throw base::Failure(base::Exit::usage, "thesis: nothing to write; give --report FILE.html or --json FILE");
   std::vector<std::filesystem::path> inputs;
   for (int number = 1; number <= analysis::kThesisPaths; ++number)
     inputs.push_back(options.request.folder / ("path" + std::to_string(number) + ".csv"));
@@ -36,7 +35,7 @@ void recompute_thesis(ThesisCommandOptions options) {
   if (options.request.folder.empty()) options.request.folder = analysis::thesis_folder();
   expect_thesis_outputs(options);
   const auto results = [&] {
-    analysis::Progress progress("thesis", analysis::Progress::Answer::at_the_end);
+    base::Progress progress("thesis", base::Progress::Answer::at_the_end);
     return analysis::thesis_results(options.request,
                                     [&](std::string_view what, double done) { progress.show(what, done); });
   }();

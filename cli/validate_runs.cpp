@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "analysis/run_folder.h"
-#include "cli/commands.h"
-#include "cli/result_file.h"
+#include "cli/live/commands.h"
+#include "cli/live/result_file.h"
 #include "report/run_diagnosis_json.h"
 #include "runs/diagnosis.h"
 #include "runs/nominal_vehicle.h"
@@ -26,7 +26,7 @@ struct ValidateRunsArguments {
 using RunPools = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 [[noreturn]] void bad_pools(const std::string& file, const std::string& what) {
-  throw analysis::Failure(analysis::Exit::bad_input, file + ": " + what);
+  throw base::Failure(base::Exit::bad_input, file + ": " + what);
 }
 
 RunPools read_run_pools(const std::string& file) {
@@ -58,8 +58,7 @@ const runs::EffectInformation* removed_effect(const std::string& name) {
   if (effect != nullptr) return effect;
   std::string names;
   for (const auto& known : runs::kEffects) names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
-  throw analysis::Failure(analysis::Exit::usage,
-                          fmt::format("--removed {}: no such effect; there are {}", name, names));
+  throw base::Failure(base::Exit::usage, fmt::format("--removed {}: no such effect; there are {}", name, names));
 }
 
 /// Sessions of the nominal runs in the form of pools.
@@ -140,7 +139,7 @@ void validate_runs(const ValidateRunsArguments& arguments) {
   try {
     answer_runs(arguments);
   } catch (const runs::BadNominal& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, arguments.nominal + ": " + error.what());
+    throw base::Failure(base::Exit::bad_input, arguments.nominal + ": " + error.what());
   }
 }
 

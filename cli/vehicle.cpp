@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/progress.h"
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
+#include "base/progress.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 #include "cli/recorded_motions.h"
-#include "cli/result_file.h"
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
@@ -43,7 +43,7 @@ void check_recordings(const VehicleCheckArguments& arguments) {
   const config::Layout layout = config::load_layout(arguments.layout);
   std::optional<config::Settings> settings;
   if (!arguments.config.empty()) settings = config::load(arguments.config);
-  analysis::Progress progress("vehicle check", analysis::Progress::Answer::at_the_end);
+  base::Progress progress("vehicle check", base::Progress::Answer::at_the_end);
   record::SeenRecordings seen;
   const identify::ConventionCheck found =
       identify::check_conventions(layout, load_motions(arguments.files, settings, progress, seen),
@@ -53,7 +53,7 @@ void check_recordings(const VehicleCheckArguments& arguments) {
 
 void check_layout(const VehicleCheckArguments& arguments) {
   if (!arguments.files.empty())
-    return with_exit_statuses([&] { check_recordings(arguments); }, analysis::Exit::bad_input);
+    return with_exit_statuses([&] { check_recordings(arguments); }, base::Exit::bad_input);
   const config::Layout layout = config::load_layout(arguments.layout);
   const sim::Assessment found = sim::assess(layout);
   std::fputs(
@@ -61,8 +61,8 @@ void check_layout(const VehicleCheckArguments& arguments) {
           .c_str(),
       stdout);
   if (!found.cannot_simulate.empty())
-    throw analysis::Failure(analysis::Exit::failed,
-                            fmt::format("{}: cannot be simulated: {}", arguments.layout, found.cannot_simulate));
+    throw base::Failure(base::Exit::failed,
+                        fmt::format("{}: cannot be simulated: {}", arguments.layout, found.cannot_simulate));
 }
 
 identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
@@ -71,7 +71,7 @@ identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
   request.every_s = arguments.every_s;
   std::optional<config::Settings> settings;
   if (!arguments.config.empty()) settings = config::load(arguments.config);
-  analysis::Progress progress("vehicle predict", analysis::Progress::Answer::at_the_end);
+  base::Progress progress("vehicle predict", base::Progress::Answer::at_the_end);
   record::SeenRecordings seen;
   request.recordings = load_motions(arguments.files, settings, progress, seen);
   record::SeenRecordings seen_fit;  // the regressions may be fitted to what is predicted
@@ -90,7 +90,7 @@ void predict_vehicle(const VehiclePredictArguments& arguments) {
         give_answer(arguments.json, report::vehicle_prediction_json(found),
                     report::vehicle_prediction_text(found));
       },
-      analysis::Exit::bad_input);
+      base::Exit::bad_input);
 }
 
 void convert_vehicle(const VehicleConvertArguments& arguments) {
@@ -99,7 +99,7 @@ void convert_vehicle(const VehicleConvertArguments& arguments) {
   try {
     vehicle = config::load_vehicle(arguments.vehicle);
   } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+    throw base::Failure(base::Exit::bad_input, error.what());
   }
   const std::string toml = config::layout_file(sim::layout_of(vehicle));
   if (arguments.output.empty() || arguments.output == "-") {

@@ -13,10 +13,10 @@
 
 #include "analysis/import/import_log.h"
 #include "analysis/log_import.h"
-#include "analysis/temporary_folder.h"
 #include "base/printable.h"
-#include "cli/commands.h"
-#include "cli/result_file.h"
+#include "base/temporary_folder.h"
+#include "cli/live/commands.h"
+#include "cli/live/result_file.h"
 #include "record/recording.h"
 #include "web/viewer.h"
 
@@ -68,7 +68,7 @@ void open_browser(const std::string& address) {
 }
 
 void view(const ViewArguments& arguments) {
-  std::optional<analysis::TemporaryFolder> folder;
+  std::optional<base::TemporaryFolder> folder;
   web::ViewerSettings settings;
   const bool is_log = run_log_job([&](const record::Progress&) { return record::is_log(arguments.file); });
   if (!is_log) folder.emplace();
@@ -77,7 +77,7 @@ void view(const ViewArguments& arguments) {
   settings.version = NAVCAL_VERSION;
   settings.port = arguments.port;
   settings.speed = arguments.speed;
-  analysis::Progress progress("view");
+  base::Progress progress("view");
   settings.progress = [&](double done) { progress.show(done); };
   settings.remark = [](const std::string& remark) {
     fmt::print(stderr, "navcal view: {}\n", base::printable(remark));

@@ -3,7 +3,7 @@
 # tests/rooms compares it with every #include, and the table of ARCHITECTURE.md is compared with it. In the order in which
 # the rooms may use each other; each line names all rooms that are included directly. A folder within a room can be a room of
 # its own (validation/reference); the room around it then does not contain it.
-set(NAVCAL_ROOMS base api/include protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify diagnosis runs analysis validation/reference validation report fleet api share web ros2 daemon cli)
+set(NAVCAL_ROOMS base api/include protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify diagnosis runs emulation analysis validation/reference validation report fleet api share web ros2 daemon cli/live cli)
 set(NAVCAL_MAY_INCLUDE_base)
 set(NAVCAL_MAY_INCLUDE_api/include)
 set(NAVCAL_MAY_INCLUDE_protocols api/include)
@@ -23,17 +23,19 @@ set(NAVCAL_MAY_INCLUDE_gap base protocols config devices instruments calib pipel
 set(NAVCAL_MAY_INCLUDE_identify base protocols config devices instruments pipeline record autopilot sim gap)
 set(NAVCAL_MAY_INCLUDE_diagnosis base config sim gap identify)
 set(NAVCAL_MAY_INCLUDE_runs base)
-set(NAVCAL_MAY_INCLUDE_analysis base protocols config devices instruments calib pipeline record ports sim runs)
+set(NAVCAL_MAY_INCLUDE_emulation base protocols config devices pipeline record ports sim)
+set(NAVCAL_MAY_INCLUDE_analysis base protocols config instruments calib pipeline record sim runs)
 set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
-set(NAVCAL_MAY_INCLUDE_validation base config record sim analysis validation/reference)
-set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim gap identify runs analysis validation)
+set(NAVCAL_MAY_INCLUDE_validation base config record sim validation/reference)
+set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim emulation gap identify runs analysis validation)
 set(NAVCAL_MAY_INCLUDE_fleet base protocols config record gap analysis report)
-set(NAVCAL_MAY_INCLUDE_api api/include protocols config devices instruments pipeline record sim gap analysis report)
+set(NAVCAL_MAY_INCLUDE_api base api/include protocols config devices instruments pipeline record sim emulation gap analysis report)
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_web base record ports share)
 set(NAVCAL_MAY_INCLUDE_ros2 base protocols record ports analysis share web)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports link share)
-set(NAVCAL_MAY_INCLUDE_cli base protocols config devices record ports link autopilot sim gap identify diagnosis runs analysis validation report fleet share web)
+set(NAVCAL_MAY_INCLUDE_cli/live base protocols config devices record ports link autopilot sim emulation share)
+set(NAVCAL_MAY_INCLUDE_cli base protocols config devices record sim emulation gap identify diagnosis runs analysis validation report fleet web cli/live)
 
 # The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.
 # What lies there may include all of them only from a .cpp. Folders that are not named (calib/thesis) are free.

@@ -10,7 +10,7 @@
 #include <set>
 #include <system_error>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 
 namespace navcal::fleet {
 namespace {
@@ -37,8 +37,8 @@ CREATE TABLE IF NOT EXISTS tasks(
 )";
 
 [[noreturn]] void fail_of_format(const std::string& name) {
-  throw analysis::Failure(analysis::Exit::bad_input,
-                          name + ": of another version of navcal; make the plan anew in another folder");
+  throw base::Failure(base::Exit::bad_input,
+                      name + ": of another version of navcal; make the plan anew in another folder");
 }
 
 int format_of(Database& database) {
@@ -200,7 +200,7 @@ FolderScan scan(const fs::path& folder) {
     RecordingFile file{path.string(), 0, 0, {}};
     if (is_recording(path) && look_at(file)) found.files.push_back(std::move(file));
   }
-  if (error) throw analysis::Failure(analysis::Exit::bad_input, folder.string() + ": " + error.message());
+  if (error) throw base::Failure(base::Exit::bad_input, folder.string() + ": " + error.message());
   std::sort(found.files.begin(), found.files.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
   return found;
 }

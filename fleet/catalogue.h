@@ -52,7 +52,7 @@ struct FolderScan {
   [[nodiscard]] std::filesystem::path vehicle_of(const std::filesystem::path& file) const;
 };
 
-/// Throws analysis::Failure (bad input) when the folder cannot be read.
+/// Throws base::Failure (bad input) when the folder cannot be read.
 [[nodiscard]] FolderScan scan(const std::filesystem::path& folder);
 
 /// Size and time of modification of a file now; false where there is none.

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <tuple>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "config/load.h"
@@ -34,7 +34,7 @@ constexpr std::size_t kBankDigits = 16;
 
 void expect_no_interruption() {
   if (base::Interruptible::interrupted()) {
-    throw analysis::Failure(analysis::Exit::failed, "interrupted; nothing was planned");
+    throw base::Failure(base::Exit::failed, "interrupted; nothing was planned");
   }
 }
 
@@ -216,7 +216,7 @@ class Planner {
     try {
       return gap::outline_of(gap::load_mission(
           recordings_.at(recording), [](double) {}, settings_));
-    } catch (const analysis::Failure&) {
+    } catch (const base::Failure&) {
       throw;
     } catch (const std::exception&) {
       return {};  // a recording that cannot be read: its task says why
@@ -292,10 +292,10 @@ PlanSummary make_plan(const PlanRequest& request, const PlanProgress& progress) 
     return summary;
   } catch (const DatabaseError& error) {
     fs::remove(part);
-    throw analysis::Failure(analysis::Exit::failed, error.what());
+    throw base::Failure(base::Exit::failed, error.what());
   } catch (const std::invalid_argument& error) {
     fs::remove(part);
-    throw analysis::Failure(analysis::Exit::usage, error.what());
+    throw base::Failure(base::Exit::usage, error.what());
   } catch (...) {
     fs::remove(part);
     throw;

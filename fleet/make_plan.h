@@ -34,7 +34,7 @@ struct PlanSummary {
 };
 
 /// Makes or extends a plan: finds recordings, hashes those that are new, finds out which null bank serves whom,
-/// and lists the tasks. Whole or not at all. Throws analysis::Failure, config::Error, std::system_error.
+/// and lists the tasks. Whole or not at all. Throws base::Failure, config::Error, std::system_error.
 [[nodiscard]] PlanSummary make_plan(const PlanRequest& request,
                                     const std::function<void(std::string_view what, double done)>& progress);
 

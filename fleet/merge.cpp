@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "fleet/whole_writing.h"
 #include "record/json/json_members.h"
 
@@ -180,7 +180,7 @@ MergeSummary merge(const Plan& plan, const fs::path& file) {
     return summary;
   } catch (const DatabaseError& error) {
     fs::remove(part);
-    throw analysis::Failure(analysis::Exit::failed, error.what());
+    throw base::Failure(base::Exit::failed, error.what());
   } catch (...) {
     fs::remove(part);
     throw;

@@ -40,7 +40,7 @@ struct MergeSummary {
 };
 
 /// Writes all results of a plan into one SQLite file; docs/fleet.md has its tables. The same plan and results give
-/// the same bytes, in whatever order and wherever the tasks were done. Throws analysis::Failure,
+/// the same bytes, in whatever order and wherever the tasks were done. Throws base::Failure,
 /// std::system_error.
 [[nodiscard]] MergeSummary merge(const Plan& plan, const std::filesystem::path& file);
 

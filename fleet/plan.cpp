@@ -10,7 +10,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "fleet/catalogue.h"
 #include "fleet/database.h"
 #include "fleet/jobs.h"
@@ -24,8 +24,8 @@ PlanLock::PlanLock(const std::filesystem::path& plan) {
   if (!file_) throw std::system_error(base::last_error(), path.string());
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
   if (errno != EWOULDBLOCK) throw std::system_error(base::last_error(), path.string());
-  throw analysis::Failure(analysis::Exit::failed,
-                          plan.string() + ": another navcal fleet plans or submits it at this moment");
+  throw base::Failure(base::Exit::failed,
+                      plan.string() + ": another navcal fleet plans or submits it at this moment");
 }
 
 namespace {
@@ -36,8 +36,7 @@ int number_in(std::string_view text, std::string_view all) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size() || number < 1) {
-    throw analysis::Failure(analysis::Exit::usage,
-                            fmt::format("{}: tasks are given as 7, as 3,5,7 or as 10-20", all));
+    throw base::Failure(base::Exit::usage, fmt::format("{}: tasks are given as 7, as 3,5,7 or as 10-20", all));
   }
   return number;
 }
@@ -48,9 +47,8 @@ void add_range(const Plan& plan, int from, int to, std::string_view text, std::v
                                       [](const Task& task, int number) { return task.number < number; });
   for (auto at = first; at != plan.tasks.end() && at->number <= to; ++at) found.push_back(&*at);
   if (found.size() == before) {
-    throw analysis::Failure(
-        analysis::Exit::usage,
-        fmt::format("{}: the plan has no such task (navcal fleet list {})", text, plan.folder.string()));
+    throw base::Failure(base::Exit::usage, fmt::format("{}: the plan has no such task (navcal fleet list {})",
+                                                       text, plan.folder.string()));
   }
 }
 
@@ -83,8 +81,8 @@ Plan load_plan(const fs::path& folder) {
   const fs::path file = catalogue_of(folder);
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) {
-    throw analysis::Failure(analysis::Exit::bad_input,
-                            folder.string() + ": no plan of navcal fleet plan (no plan.sqlite)");
+    throw base::Failure(base::Exit::bad_input,
+                        folder.string() + ": no plan of navcal fleet plan (no plan.sqlite)");
   }
   try {
     Database database(file, Database::Access::read);
@@ -93,7 +91,7 @@ Plan load_plan(const fs::path& folder) {
     read_catalogue(database, file.string(), plan);
     return plan;
   } catch (const DatabaseError& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+    throw base::Failure(base::Exit::bad_input, error.what());
   }
 }
 

@@ -55,17 +55,17 @@ struct Plan {
 /// Name of the catalogue in a plan's folder.
 [[nodiscard]] std::filesystem::path catalogue_of(const std::filesystem::path& plan);
 
-/// Reads a plan. Throws analysis::Failure (bad input) when the folder is none, or was made by another format.
+/// Reads a plan. Throws base::Failure (bad input) when the folder is none, or was made by another format.
 [[nodiscard]] Plan load_plan(const std::filesystem::path& folder);
 
-/// The tasks that a text names: "3", "3,7,9", "10-20". Throws analysis::Failure (usage).
+/// The tasks that a text names: "3", "3,7,9", "10-20". Throws base::Failure (usage).
 [[nodiscard]] std::vector<const Task*> tasks_named(const Plan& plan, std::string_view text);
 
 /// Held by whoever extends a plan or submits its tasks: two of them would do the same work twice. Gone with its
 /// process.
 class PlanLock {
  public:
-  /// Throws analysis::Failure when another process holds it, std::system_error when the file cannot be made.
+  /// Throws base::Failure when another process holds it, std::system_error when the file cannot be made.
   explicit PlanLock(const std::filesystem::path& plan);
 
  private:

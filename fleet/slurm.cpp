@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/slurm.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <system_error>
+#include <utility>
 
-#include "base/descriptor.h"
+#include "base/run_command.h"
 
 namespace navcal::fleet {
 namespace {
-
-constexpr int kSignalled = 128;
-
-/// A file in memory: unlike a pipe it never fills, so nobody has to read while the program runs.
-base::Descriptor memory_file(const char* name) {
-  base::Descriptor file(::memfd_create(name, MFD_CLOEXEC));
-  if (!file) throw std::system_error(base::last_error(), "memfd_create");
-  return file;
-}
-
-std::string content_of(const base::Descriptor& file) {
-  std::string text;
-  std::array<char, 16384> buffer{};
-  for (;;) {
-    const ssize_t count = ::pread(file.get(), buffer.data(), buffer.size(), static_cast<off_t>(text.size()));
-    if (count <= 0) return text;
-    text.append(buffer.data(), static_cast<std::size_t>(count));
-  }
-}
 
 /// What Slurm's commands say while the controller does not answer (slurm_errno.c).
 constexpr std::array<std::string_view, 6> kSilences{"Unable to contact slurm controller",
@@ -53,9 +28,9 @@ std::string first_line(std::string text) {
 
 /// What a command of Slurm's printed. Throws when it did not end well.
 std::string answer_to(const std::vector<std::string>& command) {
-  CommandOutput output = run_command(command);
+  base::CommandOutput output = base::run_command(command);
   if (output.status == 0) return std::move(output.out);
-  if (output.status == kNoSuchProgram) {
+  if (output.status == base::kNoSuchProgram) {
     throw SlurmError(command.front() + ": Slurm's commands are not installed here (Debian: slurm-client)");
   }
   const bool is_silent = std::any_of(kSilences.begin(), kSilences.end(), [&](std::string_view words) {
@@ -75,32 +50,6 @@ std::string_view take_field(std::string_view& text, char separator) {
 }
 
 }  // namespace
-
-CommandOutput run_command(const std::vector<std::string>& command) {
-  const base::Descriptor out = memory_file("out"), err = memory_file("err");
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t attributes;
-  ::posix_spawn_file_actions_init(&files);
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&files, out.get(), STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, err.get(), STDERR_FILENO);
-  ::posix_spawnattr_setpgroup(&attributes, 0);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  std::vector<char*> arguments;
-  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
-  pid_t pid = -1;
-  const int error = ::posix_spawnp(&pid, arguments[0], &files, &attributes, arguments.data(), ::environ);
-  ::posix_spawn_file_actions_destroy(&files);
-  ::posix_spawnattr_destroy(&attributes);
-  if (error == ENOENT) return {kNoSuchProgram, {}, command.front() + ": there is no such program"};
-  if (error != 0) throw std::system_error(error, std::system_category(), command.front());
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status), content_of(out),
-          content_of(err)};
-}
 
 std::vector<QueuedArray> queued_arrays(const std::string& name_prefix) {
   return arrays_in(answer_to({"squeue", "--me", "--noheader", "--array", "--format=%j|%F|%T|%r"}), name_prefix);
@@ -153,8 +102,8 @@ std::size_t largest_array() {
 }
 
 std::set<std::string> bad_ends_of(const std::string& id) {
-  const CommandOutput output =
-      run_command({"sacct", "--noheader", "--parsable2", "--allocations", "--format=State", "--jobs=" + id});
+  const base::CommandOutput output =
+      base::run_command({"sacct", "--noheader", "--parsable2", "--allocations", "--format=State", "--jobs=" + id});
   std::set<std::string> ends;
   if (output.status != 0) return ends;
   for (std::string_view rest = output.out; !rest.empty();) {

@@ -10,19 +10,6 @@
 // Slurm's commands, as far as a plan needs them (squeue(1), sbatch(1), sacct(1), scontrol(1)).
 namespace navcal::fleet {
 
-/// Status of a program that is not there, as in a shell.
-inline constexpr int kNoSuchProgram = 127;
-
-/// A command of another program that has ended.
-struct CommandOutput {
-  int status = 0;  ///< of exit; 128 + number of the signal that ended it
-  std::string out, err;
-};
-
-/// Runs a program, found as a shell finds it, and waits for its end. It has a process group of its own, so that a
-/// terminal's Ctrl-C does not end it half-way. Throws std::system_error when no process can be made.
-[[nodiscard]] CommandOutput run_command(const std::vector<std::string>& command);
-
 /// Slurm does not do what it is asked; what() has its own words.
 class SlurmError : public std::runtime_error {
  public:

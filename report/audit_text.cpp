@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "report/append_format.h"
+#include "base/append_format.h"
 #include "report/audit_report.h"
 #include "report/shown_number.h"
 #include "report/wrapped_text.h"
@@ -14,7 +14,7 @@ using analysis::Finding;
 
 void append_finding(std::string& out, const Finding& finding) {
   constexpr std::size_t kIndent = 4;
-  append_format(out, "  {}\n", printable(headline_of(finding)));
+  base::append_format(out, "  {}\n", printable(headline_of(finding)));
   for (const std::string& text : {finding.sentence, finding.todo}) {
     if (text.empty()) continue;
     out.append(kIndent, ' ');
@@ -34,9 +34,9 @@ std::string headline_of(const Finding& finding) {
                      : fmt::format(": {:.4g}", *finding.value);
     if (!finding.unit.empty()) text += " " + finding.unit;
   }
-  if (finding.heading_deg) append_format(text, "; {:.2g} deg of heading", *finding.heading_deg);
+  if (finding.heading_deg) base::append_format(text, "; {:.2g} deg of heading", *finding.heading_deg);
   if (finding.position_m)
-    append_format(text, "{} {:.0f} m in ten minutes", finding.heading_deg ? "," : ";", *finding.position_m);
+    base::append_format(text, "{} {:.0f} m in ten minutes", finding.heading_deg ? "," : ";", *finding.position_m);
   return text;
 }
 
@@ -54,10 +54,11 @@ std::string summary_of(const analysis::AuditedFile& file) {
 std::string audit_text(const analysis::Audit& audit) {
   std::string out;
   for (const analysis::AuditedFile& file : audit.files) {
-    append_format(out, "{}: {}\n{}\n", printable(file.file), duration_text(file.duration_s), summary_of(file));
+    base::append_format(out, "{}: {}\n{}\n", printable(file.file), duration_text(file.duration_s),
+                        summary_of(file));
     std::string_view title;
     for (const Finding& finding : file.findings) {
-      if (name_of(finding.certainty) != title) append_format(out, "\n{}\n", name_of(finding.certainty));
+      if (name_of(finding.certainty) != title) base::append_format(out, "\n{}\n", name_of(finding.certainty));
       title = name_of(finding.certainty);
       append_finding(out, finding);
     }
@@ -65,9 +66,9 @@ std::string audit_text(const analysis::Audit& audit) {
   }
   if (audit.files.size() < 2) return out;
   const auto changes = audit.changes();
-  append_format(out, "changes against {}\n", printable(audit.files.front().file));
+  base::append_format(out, "changes against {}\n", printable(audit.files.front().file));
   for (const auto& change : changes)
-    append_format(out, "  {}: {}\n", printable(change.file), printable(change.sentence));
+    base::append_format(out, "  {}: {}\n", printable(change.file), printable(change.sentence));
   return changes.empty() ? out + "  nothing changed beyond the intervals\n" : out;
 }
 

@@ -2,8 +2,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/append_format.h"
 #include "calib/coverage.h"
-#include "report/append_format.h"
 #include "report/calibrate_report.h"
 #include "report/calibrate_words.h"
 #include "report/shown_number.h"
@@ -18,7 +18,7 @@ constexpr std::size_t kTitle = 21, kVerdict = 10;
 void append_calibrator(std::string& out, const calib::CalibratorReport& report) {
   std::vector<std::string> pieces;
   for (const ShownQuantity& quantity : shown(report)) pieces.push_back(text_of(quantity, "+-"));
-  append_format(out, "{:<{}}{:<{}}", title_of(report.calibrator), kTitle, verdict_of(report), kVerdict);
+  base::append_format(out, "{:<{}}{:<{}}", title_of(report.calibrator), kTitle, verdict_of(report), kVerdict);
   const bool estimated = !pieces.empty();
   if (estimated) append_wrapped(out, kTitle + kVerdict, pieces, ",  ");
   const auto append_line = [&](const std::string& text) {
@@ -38,30 +38,30 @@ void append_calibrator(std::string& out, const calib::CalibratorReport& report) 
 void append_field_history(std::string& out, const calib::Report& report) {
   std::string_view title = "steps of the field";
   for (const std::string& line : field_history_of(report)) {
-    append_format(out, "{:<{}}{}\n", title, kTitle, line);
+    base::append_format(out, "{:<{}}{}\n", title, kTitle, line);
     title = "";
   }
 }
 
 void append_rose(std::string& out, const calib::HeadingHistogram& rose) {
   if (calib::visited(rose) == 0) return;
-  append_format(out, "{1:<{2}}N{0:8}E{0:8}S{0:8}W{0:8}N\n", "", "headings seen", kTitle);
-  append_format(out, "{:<{}}{}   ({} of {} sectors; . never, : seldom)\n", "", kTitle, text_rose(rose),
-                calib::visited(rose), rose.size());
+  base::append_format(out, "{1:<{2}}N{0:8}E{0:8}S{0:8}W{0:8}N\n", "", "headings seen", kTitle);
+  base::append_format(out, "{:<{}}{}   ({} of {} sectors; . never, : seldom)\n", "", kTitle, text_rose(rose),
+                      calib::visited(rose), rose.size());
 }
 
 void append_readings(std::string& out, const calib::GateCounts& gate, double duration_s) {
-  append_format(out, "{:<{}}{}", "readings", kTitle, duration_text(duration_s));
+  base::append_format(out, "{:<{}}{}", "readings", kTitle, duration_text(duration_s));
   for (std::size_t i = 0; i < calib::kStreams; ++i) {
     if (gate.taken[i] == 0) continue;
     const auto stream = static_cast<calib::Stream>(i);
     const std::string left_out = left_out_of(gate, stream);
-    append_format(out, ", {} {}{}", gate.taken[i], calib::name_of(stream),
-                  left_out.empty() ? "" : " (left out: " + left_out + ")");
+    base::append_format(out, ", {} {}{}", gate.taken[i], calib::name_of(stream),
+                        left_out.empty() ? "" : " (left out: " + left_out + ")");
   }
   out += '\n';
   if (const std::string distortion = distortion_of(gate); !distortion.empty())
-    append_format(out, "{:<{}}{}\n", "", kTitle, distortion);
+    base::append_format(out, "{:<{}}{}\n", "", kTitle, distortion);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "base/failure.h"
 #include "gap/verdict/diagnosis.h"
 #include "report/gap_words.h"
 
@@ -25,9 +25,9 @@ namespace navcal::report {
 [[nodiscard]] std::string gap_effects_file(const gap::Diagnosis& diagnosis);
 
 /// A file that is no saved diagnosis; the message names file, line or key.
-class BadDiagnosis : public std::runtime_error {
+class BadDiagnosis : public base::Failure {
  public:
-  using std::runtime_error::runtime_error;
+  explicit BadDiagnosis(const std::string& message) : Failure(base::Exit::bad_input, message) {}
 };
 
 /// Reads what `navcal gap --json` wrote, as far as exports need it: verdict, sentence, effects and candidates

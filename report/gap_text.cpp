@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/append_format.h"
+#include "base/append_format.h"
 #include "report/gap_report.h"
 #include "report/shown_number.h"
 #include "report/wrapped_text.h"
@@ -16,7 +16,7 @@ constexpr std::size_t kTitleWidth = 17;  ///< column at which the text begins
 constexpr std::size_t kMostWhere = 5, kMostCandidates = 5;
 
 /// Title in the left column; empty on the following lines.
-void begin(std::string& out, std::string_view title) { append_format(out, "{:<{}}", title, kTitleWidth); }
+void begin(std::string& out, std::string_view title) { base::append_format(out, "{:<{}}", title, kTitleWidth); }
 
 void append_lines(std::string& out, std::string_view title, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
@@ -30,16 +30,16 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
   const auto& where = diagnosis.where;
   if (where.empty()) return append_lines(out, "where", {nowhere_text(diagnosis)});
   begin(out, "where");
-  append_format(out, "{:<20}{:<24}{:<18}{:<12}{}\n", "channel", "follows", "gap", "nominal", "by chance");
+  base::append_format(out, "{:<20}{:<24}{:<18}{:<12}{}\n", "channel", "follows", "gap", "nominal", "by chance");
   for (std::size_t i = 0; i < std::min(where.size(), kMostWhere); ++i) {
     const auto& entry = where[i];
     begin(out, {});
-    append_format(out, "{:<19} {:<23} {:<17} {:<11} {}\n", entry.channel, spaced(entry.regime),
-                  amount(entry.gap, entry.unit), amount(entry.floor), chance_text(entry.p_value));
+    base::append_format(out, "{:<19} {:<23} {:<17} {:<11} {}\n", entry.channel, spaced(entry.regime),
+                        amount(entry.gap, entry.unit), amount(entry.floor), chance_text(entry.p_value));
   }
   if (where.size() > kMostWhere) {
     begin(out, {});
-    append_format(out, "and {} more, in --json and --report\n", where.size() - kMostWhere);
+    base::append_format(out, "and {} more, in --json and --report\n", where.size() - kMostWhere);
   }
 }
 
@@ -47,7 +47,7 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
 void append_effect(std::string& out, const gap::EffectFinding& effect, bool with_probability) {
   constexpr std::size_t kIndent = kTitleWidth + 2;
   out += effect.words();
-  if (with_probability) append_format(out, ", {}", probability_text(effect.probability));
+  if (with_probability) base::append_format(out, ", {}", probability_text(effect.probability));
   out += '\n';
   std::vector<std::string> pieces;
   for (const auto& parameter : effect.parameters) pieces.push_back(text_of(parameter, kPlusMinusText));
@@ -75,8 +75,8 @@ void append_closure(std::string& out, const gap::Gap& gap, const GapSource& sour
                 judged_on(gap, source)});
   for (const auto& channel : gap.channels) {
     begin(out, {});
-    append_format(out, "{:<19} {:<24} {}\n", channel.channel, closed_text(channel.closure),
-                  levels_text(channel.closure, channel.unit, kArrowText));
+    base::append_format(out, "{:<19} {:<24} {}\n", channel.channel, closed_text(channel.closure),
+                        levels_text(channel.closure, channel.unit, kArrowText));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/append_format.h"
+#include "base/append_format.h"
 #include "report/noise_report.h"
 #include "report/noise_words.h"
 #include "report/shown_number.h"
@@ -8,7 +8,7 @@
 namespace navcal::report {
 std::string noise_text(const analysis::NoiseReport& report) {
   std::string out;
-  append_format(out, "{}: {}\n{}\n", report.file, duration_text(report.duration_s), rest_sentence(report));
+  base::append_format(out, "{}: {}\n{}\n", report.file, duration_text(report.duration_s), rest_sentence(report));
   if (report.channels.empty()) return out + "The recording has no readings.\n";
   if (report.quiet.empty()) return out;
   out += '\n';
@@ -19,7 +19,7 @@ std::string noise_text(const analysis::NoiseReport& report) {
   out += lines[0];
   for (std::size_t i = 0; i < report.channels.size(); ++i) {
     out += lines[i + 1];
-    for (const auto& remark : noise_remarks(report.channels[i])) append_format(out, "    {}\n", remark);
+    for (const auto& remark : noise_remarks(report.channels[i])) base::append_format(out, "    {}\n", remark);
   }
   return out;
 }

@@ -22,17 +22,17 @@ namespace {
 /// Curves over the time of a mission; dots are drawn below lines.
 class SimulatedPlot {
  public:
-  explicit SimulatedPlot(const std::vector<analysis::Timed<sim::State>>& states) : time_(times_of(states)) {}
+  explicit SimulatedPlot(const std::vector<emulation::Timed<sim::State>>& states) : time_(times_of(states)) {}
 
   /// A value of each element; absent ones are left out.
   template <class Value, class Get>
-  SimulatedPlot& dots(SvgPlot::Ink ink, const char* name, const std::vector<analysis::Timed<Value>>& list,
+  SimulatedPlot& dots(SvgPlot::Ink ink, const char* name, const std::vector<emulation::Timed<Value>>& list,
                       Get get) {
     dots_.push_back({ink, name, points_of(list, get)});
     return *this;
   }
   template <class Value, class Get>
-  SimulatedPlot& line(SvgPlot::Ink ink, const char* name, const std::vector<analysis::Timed<Value>>& list,
+  SimulatedPlot& line(SvgPlot::Ink ink, const char* name, const std::vector<emulation::Timed<Value>>& list,
                       Get get) {
     lines_.push_back({ink, name, points_of(list, get)});
     return *this;
@@ -59,14 +59,14 @@ class SimulatedPlot {
     const char* name;
     std::vector<Point> points;
   };
-  static std::vector<double> times_of(const std::vector<analysis::Timed<sim::State>>& states) {
+  static std::vector<double> times_of(const std::vector<emulation::Timed<sim::State>>& states) {
     if (states.empty()) return {};
     return {states.front().time_s, states.back().time_s};
   }
   template <class Value, class Get>
-  std::vector<Point> points_of(const std::vector<analysis::Timed<Value>>& list, Get get) const {
+  std::vector<Point> points_of(const std::vector<emulation::Timed<Value>>& list, Get get) const {
     std::vector<Point> points;
-    for (const analysis::Timed<Value>& element : list) {
+    for (const emulation::Timed<Value>& element : list) {
       const std::optional<double> value = get(element.value);
       if (value) points.push_back({time_(element.time_s), *value});
     }
@@ -90,7 +90,7 @@ std::optional<double> axis(const std::optional<instruments::Vector3>& vector, st
   return vector ? std::optional((*vector)[i]) : std::nullopt;
 }
 
-std::vector<Point> fixes_of(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
+std::vector<Point> fixes_of(const emulation::SimulatedSeries& series, const sim::Origin& origin) {
   const auto corner = sim::geodetic(origin, {1000, 1000, 0});
   std::vector<Point> points;
   for (const auto& fix : series.gps) {
@@ -106,7 +106,7 @@ std::vector<Point> fixes_of(const analysis::SimulatedSeries& series, const sim::
 }
 
 /// Both axes have the same scale, a metre north as long as a metre east.
-Figure track(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
+Figure track(const emulation::SimulatedSeries& series, const sim::Origin& origin) {
   constexpr double kTrackSide = 460, kLeastLength_m = 2;
   std::vector<Point> way;
   std::vector<double> easts, norths;
@@ -125,7 +125,7 @@ Figure track(const analysis::SimulatedSeries& series, const sim::Origin& origin)
           fixes.empty() ? "True track; the receiver had no fix." : "True track, and the fixes of the receiver."};
 }
 
-Figure heading_figure(const analysis::SimulatedSeries& series) {
+Figure heading_figure(const emulation::SimulatedSeries& series) {
   std::vector<double> times_s, headings_deg;
   for (const auto& state : series.states) {
     times_s.push_back(state.time_s);
@@ -146,7 +146,7 @@ Figure heading_figure(const analysis::SimulatedSeries& series) {
 }
 
 /// Track and motion of the vehicle, with the output of the instruments.
-std::vector<Figure> motion_figures(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
+std::vector<Figure> motion_figures(const emulation::SimulatedSeries& series, const sim::Origin& origin) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   const auto& states = series.states;
   std::vector<Figure> figures{track(series, origin)};
@@ -176,7 +176,7 @@ std::vector<Figure> motion_figures(const analysis::SimulatedSeries& series, cons
 }
 
 /// Instrument outputs that are no motion: rates, forces, field, tilt, shaft, current, temperature.
-std::vector<Figure> instrument_figures(const analysis::SimulatedSeries& series) {
+std::vector<Figure> instrument_figures(const emulation::SimulatedSeries& series) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   constexpr std::array<const char*, 3> kAxes{"forward", "starboard", "down"};
   auto field = plot(), force = plot(), rates = plot(), tilt = plot();
@@ -255,8 +255,8 @@ void append_effects(HtmlPage& page, const sim::EffectSet& effects) {
   page.table({"Effect", "Parameter", "Value", "Equation", "When"}, rows);
 }
 
-void append_source(HtmlPage& page, const analysis::SimulateArguments& arguments,
-                   const analysis::SimulatedRun& run) {
+void append_source(HtmlPage& page, const emulation::SimulateArguments& arguments,
+                   const emulation::SimulatedRun& run) {
   const std::string motion = !arguments.path.empty()    ? "path " + arguments.path.string()
                              : !arguments.drive.empty() ? "drive " + arguments.drive.string()
                                                         : "mission " + arguments.mission;
@@ -266,7 +266,7 @@ void append_source(HtmlPage& page, const analysis::SimulateArguments& arguments,
               {"Vehicle", arguments.vehicle.empty() ? "the reference vehicle" : arguments.vehicle.string()},
               {"Place", fmt::format("{:.4f}, {:.4f}", arguments.place.origin.latitude_deg,
                                     arguments.place.origin.longitude_deg)},
-              {"Field of the Earth", analysis::field_text(arguments.place.field_world_uT)},
+              {"Field of the Earth", emulation::field_text(arguments.place.field_world_uT)},
               {"Duration", fmt::format("{:g} s", run.duration_s)},
               {"Seed", std::to_string(arguments.seed)},
               {"Noise", arguments.no_noise ? "none" : "as specified"},
@@ -276,8 +276,8 @@ void append_source(HtmlPage& page, const analysis::SimulateArguments& arguments,
 
 }  // namespace
 
-std::string simulate_page(const analysis::SimulateHistory& history, const analysis::SimulateArguments& arguments,
-                          const analysis::SimulatedRun& run, const sim::EffectSet& effects) {
+std::string simulate_page(const emulation::SimulateHistory& history, const emulation::SimulateArguments& arguments,
+                          const emulation::SimulatedRun& run, const sim::EffectSet& effects) {
   HtmlPage page("Simulation: " + arguments.capture.filename().string());
   page.section("Motion");
   append_figures(page, motion_figures(history.series(), arguments.place.origin));

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "report/append_format.h"
+#include "base/append_format.h"
 #include "report/html_page.h"
 
 namespace navcal::report {
@@ -142,8 +142,8 @@ void SvgPlot::append_path(std::string& path, std::span<const Point> points, bool
       begun = false;
       continue;
     }
-    append_format(path, "{}{:.1f} {:.1f}", begun ? 'L' : 'M', std::clamp(x, -9999.0, 9999.0),
-                  std::clamp(y, -9999.0, 9999.0));
+    base::append_format(path, "{}{:.1f} {:.1f}", begun ? 'L' : 'M', std::clamp(x, -9999.0, 9999.0),
+                        std::clamp(y, -9999.0, 9999.0));
     begun = true;
   }
 }
@@ -158,7 +158,7 @@ void SvgPlot::band(Ink ink, std::string_view name, std::span<const Point> lower,
   std::string path;
   bool begun = false;
   append_path(path, around, begun);
-  append_format(body_, "<path class=\"area {}\" d=\"{}Z\"/>\n", name_of(ink), path);
+  base::append_format(body_, "<path class=\"area {}\" d=\"{}Z\"/>\n", name_of(ink), path);
   legend(ink, Mark::area, name);
 }
 
@@ -167,10 +167,10 @@ void SvgPlot::points(Ink ink, std::string_view name, std::span<const Point> poin
   for (const Point& point : points) {
     mark_cut(point);
     // A line of zero length with round ends is a dot, in a third of the bytes of a circle.
-    if (visible(point)) append_format(path, "M{:.1f} {:.1f}h0", x_of(point.x), y_of(point.y));
+    if (visible(point)) base::append_format(path, "M{:.1f} {:.1f}h0", x_of(point.x), y_of(point.y));
   }
   if (path.empty()) return;
-  append_format(body_, "<path class=\"dots {}\" d=\"{}\"/>\n", name_of(ink), path);
+  base::append_format(body_, "<path class=\"dots {}\" d=\"{}\"/>\n", name_of(ink), path);
   legend(ink, Mark::dot, name);
 }
 
@@ -180,7 +180,7 @@ void SvgPlot::line(Ink ink, std::string_view name, std::span<const Point> points
   bool begun = false;
   append_path(path, points, begun);
   if (path.empty()) return;
-  append_format(body_, "<path class=\"line {}\" d=\"{}\"/>\n", name_of(ink), path);
+  base::append_format(body_, "<path class=\"line {}\" d=\"{}\"/>\n", name_of(ink), path);
   legend(ink, Mark::stroke, name);
 }
 
@@ -199,21 +199,22 @@ void SvgPlot::append_cuts(std::string& out) const {
   std::string words;
   for (std::size_t i = 0; i < cuts_.size(); ++i) {
     if (cuts_[i].points > 0)
-      append_format(words, "{}{} {}", words.empty() ? "" : ", ", cuts_[i].points, kSides[i]);
+      base::append_format(words, "{}{} {}", words.empty() ? "" : ", ", cuts_[i].points, kSides[i]);
   }
   if (words.empty()) return;
   const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
   std::string path;
-  for (const int x : cuts_[above].at_px) append_format(path, "M{:.1f} {:.1f}l3 -5l3 5Z", kLeft + x, kTop + 6);
+  for (const int x : cuts_[above].at_px)
+    base::append_format(path, "M{:.1f} {:.1f}l3 -5l3 5Z", kLeft + x, kTop + 6);
   for (const int x : cuts_[below].at_px)
-    append_format(path, "M{:.1f} {:.1f}l3 5l3 -5Z", kLeft + x, kTop + height - 6);
-  for (const int y : cuts_[left].at_px) append_format(path, "M{:.1f} {:.1f}l-5 3l5 3Z", kLeft + 6, kTop + y);
+    base::append_format(path, "M{:.1f} {:.1f}l3 5l3 -5Z", kLeft + x, kTop + height - 6);
+  for (const int y : cuts_[left].at_px) base::append_format(path, "M{:.1f} {:.1f}l-5 3l5 3Z", kLeft + 6, kTop + y);
   for (const int y : cuts_[right].at_px)
-    append_format(path, "M{:.1f} {:.1f}l5 3l-5 3Z", kLeft + width - 6, kTop + y);
-  append_format(out, "<path class=\"cut\" d=\"{}\"/>\n", path);
-  append_format(out,
-                "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">beyond the axes: {}</text>\n",
-                kLeft + width, size_.height + kCutWords - 6, words);
+    base::append_format(path, "M{:.1f} {:.1f}l5 3l-5 3Z", kLeft + width - 6, kTop + y);
+  base::append_format(out, "<path class=\"cut\" d=\"{}\"/>\n", path);
+  base::append_format(
+      out, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">beyond the axes: {}</text>\n",
+      kLeft + width, size_.height + kCutWords - 6, words);
 }
 
 bool SvgPlot::any_cut() const {
@@ -222,31 +223,33 @@ bool SvgPlot::any_cut() const {
 
 void SvgPlot::level(double y) {
   if (!y_.range.contains(y)) return;
-  append_format(body_, "<path class=\"grid strong\" d=\"M0 {:.1f}h{:.1f}\"/>\n", y_of(y),
-                size_.width - kLeft - kRight);
+  base::append_format(body_, "<path class=\"grid strong\" d=\"M0 {:.1f}h{:.1f}\"/>\n", y_of(y),
+                      size_.width - kLeft - kRight);
 }
 
 void SvgPlot::word(const Point& at, std::string_view text) {
   if (!visible(at)) return;
-  append_format(body_, "<text class=\"tick halo\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                x_of(at.x), y_of(at.y) + 4, escaped(text));
+  base::append_format(body_,
+                      "<text class=\"tick halo\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                      x_of(at.x), y_of(at.y) + 4, escaped(text));
 }
 
 void SvgPlot::legend(Ink ink, Mark mark, std::string_view name) {
   if (name.empty()) return;
   switch (mark) {
     case Mark::dot:
-      append_format(legend_, "<path class=\"dots {}\" style=\"stroke-width:6\" d=\"M{:.0f} 14h0\"/>", name_of(ink),
-                    legend_x_ + 8);
+      base::append_format(legend_, "<path class=\"dots {}\" style=\"stroke-width:6\" d=\"M{:.0f} 14h0\"/>",
+                          name_of(ink), legend_x_ + 8);
       break;
     case Mark::stroke:
-      append_format(legend_, "<path class=\"line {}\" d=\"M{:.0f} 14h16\"/>", name_of(ink), legend_x_);
+      base::append_format(legend_, "<path class=\"line {}\" d=\"M{:.0f} 14h16\"/>", name_of(ink), legend_x_);
       break;
     case Mark::area:
-      append_format(legend_, "<path class=\"area {}\" d=\"M{:.0f} 9h16v10h-16Z\"/>", name_of(ink), legend_x_);
+      base::append_format(legend_, "<path class=\"area {}\" d=\"M{:.0f} 9h16v10h-16Z\"/>", name_of(ink),
+                          legend_x_);
       break;
   }
-  append_format(legend_, "<text x=\"{:.0f}\" y=\"18\">{}</text>\n", legend_x_ + 21, escaped(name));
+  base::append_format(legend_, "<text x=\"{:.0f}\" y=\"18\">{}</text>\n", legend_x_ + 21, escaped(name));
   legend_x_ += 36 + kLetterWidth * static_cast<double>(name.size());
 }
 
@@ -255,35 +258,37 @@ void SvgPlot::append_axes(std::string& out) const {
   std::string grid, text;
   for (const auto& [value, words] : ticks_of(x_, 8)) {
     const double x = kLeft + x_of(value);
-    append_format(grid, "M{:.1f} {:.1f}v{:.1f}", x, kTop, height);
-    append_format(text, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x,
-                  kTop + height + 15, escaped(words));
+    base::append_format(grid, "M{:.1f} {:.1f}v{:.1f}", x, kTop, height);
+    base::append_format(text, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                        x, kTop + height + 15, escaped(words));
   }
   for (const auto& [value, words] : ticks_of(y_, 6)) {
     const double y = kTop + y_of(value);
-    append_format(grid, "M{:.1f} {:.1f}h{:.1f}", kLeft, y, width);
-    append_format(text, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                  kLeft - 6, y + 4, escaped(words));
+    base::append_format(grid, "M{:.1f} {:.1f}h{:.1f}", kLeft, y, width);
+    base::append_format(text, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                        kLeft - 6, y + 4, escaped(words));
   }
-  append_format(out, "<path class=\"grid\" d=\"{}\"/>\n{}", grid, text);
-  append_format(out, "<text text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft + width / 2,
-                size_.height - 7, escaped(x_.label));
-  append_format(out, "<text text-anchor=\"middle\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>\n",
-                kTop + height / 2, escaped(y_.label));
+  base::append_format(out, "<path class=\"grid\" d=\"{}\"/>\n{}", grid, text);
+  base::append_format(out, "<text text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft + width / 2,
+                      size_.height - 7, escaped(x_.label));
+  base::append_format(out,
+                      "<text text-anchor=\"middle\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>\n",
+                      kTop + height / 2, escaped(y_.label));
 }
 
 std::string SvgPlot::svg() const {
   const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
   std::string out;
-  append_format(out, "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
-                size_.width, size_.height + (any_cut() ? kCutWords : 0));
-  append_format(out, "<title>{}</title>\n", title_);
+  base::append_format(out,
+                      "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
+                      size_.width, size_.height + (any_cut() ? kCutWords : 0));
+  base::append_format(out, "<title>{}</title>\n", title_);
   append_axes(out);
   // A nested picture clips content outside the axes.
-  append_format(out, "<svg x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n", kLeft, kTop,
-                width, height, body_);
-  append_format(out, "<path class=\"frame\" d=\"M{:.1f} {:.1f}h{:.1f}v{:.1f}h-{:.1f}Z\"/>\n", kLeft, kTop, width,
-                height, width);
+  base::append_format(out, "<svg x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n", kLeft,
+                      kTop, width, height, body_);
+  base::append_format(out, "<path class=\"frame\" d=\"M{:.1f} {:.1f}h{:.1f}v{:.1f}h-{:.1f}Z\"/>\n", kLeft, kTop,
+                      width, height, width);
   append_cuts(out);
   return out + legend_ + "</svg>\n";
 }

@@ -2,16 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "base/failure.h"
 
 namespace navcal::runs {
 
 /// A run file that cannot be used: the message names file, line and column.
-class BadRun : public std::runtime_error {
+class BadRun : public base::Failure {
  public:
-  using std::runtime_error::runtime_error;
+  explicit BadRun(const std::string& message) : Failure(base::Exit::bad_input, message) {}
 };
 
 /// One run of a thruster vehicle: rows at a constant rate, the vehicle at the surface with thrusters stopped

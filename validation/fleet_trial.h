@@ -73,7 +73,7 @@ struct FleetTruth {
 
 /// Swims all missions of a fleet in the reference simulator and writes their captures below the folder, which must
 /// be new or empty, and a vehicle.toml with the density of the water. Nothing in or about them tells of the
-/// causes. `progress` gets 0 to 1. Throws std::invalid_argument (the folder), analysis::Failure,
+/// causes. `progress` gets 0 to 1. Throws std::invalid_argument (the folder), base::Failure,
 /// std::system_error.
 void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, unsigned threads,
                  const std::function<void(double)>& progress);

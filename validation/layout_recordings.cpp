@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "record/whole_file.h"
 #include "validation/recordings.h"
 
@@ -51,8 +51,8 @@ class FolderWriter {
       const std::string text = capture_of(drawn_swim(vehicle, seed, 60 * options_.minutes, day),
                                           nominal_day(options_.seed, vehicle, day), seed);
       if (text.empty())
-        throw analysis::Failure(
-            analysis::Exit::failed,
+        throw base::Failure(
+            base::Exit::failed,
             fmt::format("{}: the vehicle cannot swim: lost on a nominal mission", vehicle.layout.name));
       write_file(options_.folder / fmt::format("vehicle-{}-nominal-{}.cap", number, day), text);
       advance();
@@ -72,9 +72,9 @@ class FolderWriter {
       return fmt::format("{{\"case\":\"{:04}\",\"vehicle\":{},\"exclude\":\"{}\"}}\n", number, vehicle.number,
                          drawn.excluded);
     }
-    throw analysis::Failure(analysis::Exit::failed,
-                            fmt::format("case {}: {} draws of its effects, and the vehicle was lost with each",
-                                        number, kMostAttempts));
+    throw base::Failure(base::Exit::failed,
+                        fmt::format("case {}: {} draws of its effects, and the vehicle was lost with each", number,
+                                    kMostAttempts));
   }
 
   std::optional<std::array<std::string, kRecordingsPerCase>> captures_of(const LayoutCase& drawn,

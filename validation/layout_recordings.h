@@ -29,7 +29,7 @@ struct LayoutRecordingsOptions {
 ///     {"case":"0001","vehicle":1,"exclude":""}
 /// Truth goes to a file of its own, a line of JSON for each vehicle and each case. An effect with which the
 /// vehicle cannot swim is drawn anew. `progress`: of the share that is done. Throws std::invalid_argument
-/// (layouts, folders), analysis::Failure (interrupted; no vehicle swims), std::system_error.
+/// (layouts, folders), base::Failure (interrupted; no vehicle swims), std::system_error.
 void write_layout_recordings(const LayoutRecordingsOptions& options, const std::function<void(double)>& progress);
 
 /// The capture of one mission; empty when the vehicle was lost.

@@ -8,7 +8,7 @@
 #include <future>
 #include <iterator>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "base/interruptible.h"
 #include "config/load.h"
 #include "record/whole_file.h"
@@ -40,7 +40,7 @@ void CaptureText::transfer(const reference::Transfer& transfer) {
 }
 
 void CaptureText::truth(const reference::Snapshot& /*snapshot*/) {
-  if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
+  if (base::Interruptible::interrupted()) throw base::Failure(base::Exit::failed, "interrupted");
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
@@ -58,9 +58,8 @@ void write_recording(const reference::Mission& mission, const reference::Vehicle
                      std::uint64_t seed, const std::filesystem::path& file) {
   CaptureText capture(reference::kFinnedPorts);
   if (const auto lost = reference::run(mission, vehicle, seed, capture)) {
-    throw analysis::Failure(
-        analysis::Exit::failed,
-        fmt::format("no recording: the vehicle was lost {:.1f} s into the mission", lost->time_s));
+    throw base::Failure(base::Exit::failed,
+                        fmt::format("no recording: the vehicle was lost {:.1f} s into the mission", lost->time_s));
   }
   write_file(file, capture.text);
 }

@@ -14,14 +14,14 @@ namespace {
 /// `step(out, written, in, taken)` sets what it wrote and took: 0 at the end of a frame, nullopt for damage.
 template <class Step>
 std::optional<std::string> decompressed_frames(std::string_view in, Step step) {
-  constexpr std::size_t kBlock = 1 << 17, kMostBytes = 1 << 28;
+  constexpr std::size_t kBlock = 1 << 17, kMostOfChunk = 1 << 28;
   std::string out, block(kBlock, '\0');
   bool is_ended = false;
   while (!is_ended || !in.empty()) {
     std::size_t written = block.size(), taken = in.size();
     const std::optional<std::size_t> more = step(block.data(), written, in.data(), taken);
     const bool is_cut = written == 0 && taken == 0;
-    if (!more || is_cut || out.size() + written > kMostBytes) return std::nullopt;
+    if (!more || is_cut || out.size() + written > kMostOfChunk) return std::nullopt;
     out.append(block, 0, written);
     in.remove_prefix(taken);
     is_ended = *more == 0;

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/failure.h"
 #include "analysis/noise/channel_collector.h"
 #include "analysis/port_matching.h"
-#include "analysis/progress.h"
+#include "base/failure.h"
+#include "base/progress.h"
 #include "pipeline/pipeline.h"
 #include "record/recording.h"
 
@@ -31,7 +31,7 @@ void play_into(ChannelCollector& collector, const std::string& file, const confi
   const auto recording = record::Recording::open(file);
   const auto ports = match_ports(recording->settings(), settings, file);
   pipeline::Pipeline pipeline(settings);
-  Progress progress("noise");
+  base::Progress progress("noise");
   std::int64_t newest_ns = 0;
   while (const auto entry = recording->next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
@@ -51,8 +51,9 @@ void play_into(ChannelCollector& collector, const std::string& file, const confi
 std::vector<Interval> chosen_interval(const NoiseRequest& request, double duration_s) {
   const Interval chosen{request.from_s.value_or(0), std::min(request.to_s.value_or(duration_s), duration_s)};
   if (chosen.length_s() > 0 && chosen.from_s >= 0) return {chosen};
-  throw Failure(Exit::usage,
-                fmt::format("--from and --to leave nothing of the recording, which is {:.1f} s long", duration_s));
+  throw base::Failure(
+      base::Exit::usage,
+      fmt::format("--from and --to leave nothing of the recording, which is {:.1f} s long", duration_s));
 }
 
 }  // namespace

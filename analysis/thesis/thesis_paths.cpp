@@ -6,8 +6,8 @@
 #include <cmath>
 #include <system_error>
 
-#include "analysis/failure.h"
 #include "base/angles.h"
+#include "base/failure.h"
 #include "sim/path.h"
 
 namespace navcal::analysis {
@@ -27,10 +27,11 @@ bool has_paths(const fs::path& folder) {
 void expect_period(const ThesisPath& path, const fs::path& file) {
   constexpr std::size_t kFewest = 100;
   if (path.size() < kFewest)
-    throw Failure(Exit::bad_input, fmt::format("{}: {} rows are too few", file.string(), path.size()));
+    throw base::Failure(base::Exit::bad_input, fmt::format("{}: {} rows are too few", file.string(), path.size()));
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (std::abs(path[i].time_s - path[i - 1].time_s - thesis::kPeriod_s) > 1e-6)
-      throw Failure(Exit::bad_input, fmt::format("{}:{}: rows must be 0.1 s apart", file.string(), i + 2));
+      throw base::Failure(base::Exit::bad_input,
+                          fmt::format("{}:{}: rows must be 0.1 s apart", file.string(), i + 2));
   }
 }
 
@@ -62,10 +63,11 @@ fs::path thesis_folder() {
   for (const fs::path& folder : {installed, built}) {
     if (has_paths(folder)) return folder;
   }
-  throw Failure(Exit::failed,
-                fmt::format("the paths of the thesis (path1.csv to path8.csv) are missing in {}; install them "
-                            "again, or name their folder with --paths",
-                            installed.string()));
+  throw base::Failure(
+      base::Exit::failed,
+      fmt::format("the paths of the thesis (path1.csv to path8.csv) are missing in {}; install them "
+                  "again, or name their folder with --paths",
+                  installed.string()));
 }
 
 std::array<ThesisPath, kThesisPaths> load_thesis_paths(const fs::path& folder) {

@@ -12,8 +12,8 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/failure.h"
 #include "base/angles.h"
+#include "base/failure.h"
 #include "base/utc_text.h"
 #include "fleet/causes/information_json.h"
 #include "fleet/causes/limits.h"
@@ -98,8 +98,8 @@ std::optional<FleetMission> mission_of(const Task& task, const std::string& path
     mission.utc_ns = mission.information.utc_ns.value_or(began.is_null() ? 0 : began.get<std::int64_t>());
     return mission;
   } catch (const std::exception& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, fmt::format("the answer of task {} ({}) is damaged: {}",
-                                                                   task.number, name, error.what()));
+    throw base::Failure(base::Exit::bad_input,
+                        fmt::format("the answer of task {} ({}) is damaged: {}", task.number, name, error.what()));
   }
 }
 
@@ -185,9 +185,8 @@ std::vector<CalibrationHistory> read_calibrations(const Plan& plan, const Result
     try {
       add_calibration(AnswerJson::parse(*text), file->second.path, histories);
     } catch (const nlohmann::json::exception& error) {
-      throw analysis::Failure(
-          analysis::Exit::bad_input,
-          fmt::format("the answer of task {} ({}) is damaged: {}", task->number, file->second.path, error.what()));
+      throw base::Failure(base::Exit::bad_input, fmt::format("the answer of task {} ({}) is damaged: {}",
+                                                             task->number, file->second.path, error.what()));
     }
   }
   std::vector<CalibrationHistory> judged;

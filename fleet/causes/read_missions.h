@@ -20,7 +20,7 @@ struct MissionsRead {
 
 /// The vehicle of a mission is the one that its recording names (`vehicle.id`), else the folder that the recording
 /// lies in. Its design is the nominal vehicle of the task. Its day is the date of the first fix, with the place
-/// where several waters were sailed that day. Throws analysis::Failure (bad input) for an answer that is damaged.
+/// where several waters were sailed that day. Throws base::Failure (bad input) for an answer that is damaged.
 [[nodiscard]] MissionsRead read_missions(const Plan& plan, const ResultStore& results);
 
 /// The values of all accepted calibrations of a plan (job `calibrate`), a series for each value of each

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 
 namespace navcal::cli {
 namespace {
@@ -20,7 +20,7 @@ template <class Write>
 std::string written(analysis::FieldWriter::Format format, Write write) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe(ends.data()), 0);
-  analysis::Output output(ends[1], "pipe");
+  base::Output output(ends[1], "pipe");
   analysis::FieldWriter fields(output, format);
   fields.begin_frame("test", {protocols::FrameId("ID"), 7, {}});
   write(fields);
@@ -131,7 +131,7 @@ TEST(Output, MoreThanTheBufferHoldsGoesThroughWhole) {
   ASSERT_NE(file, nullptr);
   std::string text;
   for (int i = 0; i < 200'000; ++i) text += std::to_string(i);
-  analysis::Output output(::fileno(file), "file");
+  base::Output output(::fileno(file), "file");
   output.append(text);
   for (const char c : text) output.append(c);
   output.flush();
@@ -142,13 +142,13 @@ TEST(Output, MoreThanTheBufferHoldsGoesThroughWhole) {
 }
 
 TEST(Output, SaysWhyItCannotWrite) {
-  analysis::Output output(-1, "standard output");
+  base::Output output(-1, "standard output");
   output.append("x");
   try {
     output.flush();
     FAIL();
-  } catch (const analysis::Failure& failure) {
-    EXPECT_EQ(failure.status(), analysis::Exit::failed);
+  } catch (const base::Failure& failure) {
+    EXPECT_EQ(failure.status(), base::Exit::failed);
     EXPECT_STREQ(failure.what(), "standard output: cannot write: Bad file descriptor");
   }
 }

@@ -4,7 +4,7 @@
 
 #include "analysis/device_check.h"
 #include "analysis/device_guess.h"
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "config/described/description_file.h"
 #include "protocols/checked_line.h"
 #include "tests/analysis/described_port.h"

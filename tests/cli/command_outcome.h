@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.h"
-#include "cli/exit_statuses.h"
+#include "cli/live/commands.h"
+#include "cli/live/exit_statuses.h"
 
 namespace navcal::cli::test {
 
@@ -16,6 +16,14 @@ struct Outcome {
   int status = 0;
   std::string message, output;
 };
+
+/// navcal log with those of its subcommands that read files.
+inline void add_log_of_files(CLI::App& app) {
+  add_log(app);
+  CLI::App& log = *app.get_subcommand("log");
+  add_log_import(log);
+  add_log_surfacings(log);
+}
 
 /// One subcommand run within this program; `arguments` begin with its name.
 inline Outcome run_command(void (*add)(CLI::App&), std::vector<std::string> arguments) {
@@ -27,7 +35,7 @@ inline Outcome run_command(void (*add)(CLI::App&), std::vector<std::string> argu
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
-    outcome = {static_cast<int>(analysis::Exit::usage), error.what(), ""};
+    outcome = {static_cast<int>(base::Exit::usage), error.what(), ""};
   } catch (const std::exception& error) {
     outcome = {static_cast<int>(exit_status_of(error)), error.what(), ""};
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every subcommand is listed, says what it is for, and shows how it is used.
-#include "cli/commands.h"
+#include "cli/live/commands.h"
 
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ TEST(Commands, OldNamesOfTheResearchCommandsStay) {
     EXPECT_EQ(options_of(*app.get_subcommand(name)), options_of(*research.get_subcommand(name)));
 }
 
-// A file with a subcommand whose line in cli/commands.h was forgotten compiles, and nobody could call it.
+// A file with a subcommand whose line in cli/live/commands.h was forgotten compiles, and nobody could call it.
 TEST(Commands, EachSourceOfOneIsListed) {
   CLI::App app("", "navcal");
   add_commands(app);
@@ -93,7 +93,7 @@ TEST(Commands, EachSourceOfOneIsListed) {
   std::set<std::string> names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.insert(command->get_name());
   std::size_t definitions = 0;
-  for (const auto& file : std::filesystem::directory_iterator(NAVCAL_SOURCE_DIR "/cli")) {
+  for (const auto& file : std::filesystem::recursive_directory_iterator(NAVCAL_SOURCE_DIR "/cli")) {
     if (file.path().extension() != ".cpp") continue;
     const std::string text = navcal::test::read_file(file.path());
     for (auto it = std::sregex_iterator(text.begin(), text.end(), definition); it != std::sregex_iterator();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each check against what it is about: pseudo-terminals, sockets, folders; and tables of the kernel that were made
 // up for what cannot be arranged here.
-#include "cli/doctor_checks.h"
+#include "cli/live/doctor_checks.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/doctor_checks.h"
+#include "cli/live/doctor_checks.h"
 #include "ports/pseudo_terminal.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/support/temporary_folder.h"

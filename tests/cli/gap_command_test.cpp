@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/commands.h"
+#include "cli/live/commands.h"
 #include "gap/verdict/request.h"
 #include "gap/verdict/study.h"
 #include "report/gap_report.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.h"
+#include "cli/live/commands.h"
 #include "record/content_hash.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/markup.h"
@@ -153,7 +153,7 @@ TEST_F(GapTrial, InterruptedItEndsTheDiagnosisAndScoresWhatThereIs) {
   stub("if [ -e once ]; then trap '' TERM; sleep 60 & echo $! > pid; kill -INT $PPID; wait; fi\ntouch once\n" +
        std::string("cat > \"$json\" <<'END'\n") + kNoGap + "\nEND");
   const auto outcome = run({"--arms", "nulls", "--cases", "3"});
-  EXPECT_EQ(outcome.status, static_cast<int>(analysis::Exit::failed));
+  EXPECT_EQ(outcome.status, static_cast<int>(base::Exit::failed));
   EXPECT_NE(outcome.message.find("interrupted: 1 of 3 cases are scored"), std::string::npos) << outcome.message;
   EXPECT_EQ(result()["cases"].size(), 1U);
   EXPECT_EQ(result()["ended_early"], "interrupted");
@@ -188,7 +188,7 @@ TEST_F(GapTrial, WrongUsageIsRefusedBeforeAnythingIsDrawn) {
            {{"--cases", "0"}, "--cases"},
            {{"--only", "-3"}, "--only"}}) {
     const auto outcome = run(arguments);
-    EXPECT_EQ(outcome.status, static_cast<int>(analysis::Exit::usage)) << said;
+    EXPECT_EQ(outcome.status, static_cast<int>(base::Exit::usage)) << said;
     EXPECT_NE(outcome.message.find(said), std::string::npos) << outcome.message;
   }
   EXPECT_FALSE(fs::exists(folder_ / "trial.json"));

@@ -22,7 +22,7 @@ class LogImport : public record::testing::TemporaryFolder {
  protected:
   static test::Outcome run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "log");
-    return test::run_command(add_log, std::move(arguments));
+    return test::run_command(test::add_log_of_files, std::move(arguments));
   }
   [[nodiscard]] std::string to(const std::string& name) const { return (path_ / name).string(); }
 };

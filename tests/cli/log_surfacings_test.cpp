@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.h"
+#include "cli/live/commands.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/cli/simulated_recording.h"
 #include "tests/record/temporary_folder.h"
@@ -29,7 +29,7 @@ class LogSurfacings : public record::testing::TemporaryFolder {
   }
   static test::Outcome run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"log", "surfacings"});
-    return test::run_command(add_log, std::move(arguments));
+    return test::run_command(test::add_log_of_files, std::move(arguments));
   }
 };
 

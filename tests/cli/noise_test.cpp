@@ -212,7 +212,8 @@ TEST_F(NoiseCommand, AFewSamplesAndNumbersThatAreNoneAreTakenAsTheyAre) {
 
 TEST_F(NoiseCommand, ALogThatIsCutIsUsedAsFarAsItGoes) {
   const auto capture = simulated(still(), 60);
-  ASSERT_EQ(test::run_command(add_log, {"log", "import", "-o", path("whole.mcap"), capture}).status, 0);
+  ASSERT_EQ(test::run_command(test::add_log_of_files, {"log", "import", "-o", path("whole.mcap"), capture}).status,
+            0);
   const auto whole = navcal::test::read_file(path("whole.mcap"));
   const auto json = answer({write("cut.mcap", whole.substr(0, whole.size() * 6 / 10))});
   EXPECT_GT(json["duration_s"], 20);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pilot's side of navcald's sockets, against a daemon that answers late or not at all.
-#include "cli/pilot_link.h"
+#include "cli/live/pilot_link.h"
 
 #include <gtest/gtest.h>
 #include <netinet/in.h>

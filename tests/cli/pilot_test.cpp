@@ -2,10 +2,10 @@
 // What a pilot reads of navcald's STATE, what it works out before a mission, and what it shows.
 #include <gtest/gtest.h>
 
-#include "analysis/failure.h"
-#include "cli/pilot_link.h"
-#include "cli/pilot_plan.h"
-#include "cli/pilot_progress.h"
+#include "base/failure.h"
+#include "cli/live/pilot_link.h"
+#include "cli/live/pilot_plan.h"
+#include "cli/live/pilot_progress.h"
 #include "config/mission_file.h"
 
 namespace navcal::cli {
@@ -59,7 +59,7 @@ std::string refusal(const autopilot::PilotLimits& limits, std::string_view toml)
   try {
     (void)plan_mission({}, config::parse_mission(toml, "test.toml"), limits);
     return {};
-  } catch (const analysis::Failure& failure) {
+  } catch (const base::Failure& failure) {
     return failure.what();
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configurations that navcal start writes, and its words on what arrives.
-#include "cli/start_plan.h"
+#include "cli/live/start_plan.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "config/load.h"
 
 namespace navcal::cli {
@@ -74,8 +74,8 @@ TEST(StartPlan, OptionsOfAnotherKindAreRefused) {
     try {
       (void)start_plan(wrong);
       ADD_FAILURE() << wrong.kind;
-    } catch (const analysis::Failure& failure) {
-      EXPECT_EQ(failure.status(), analysis::Exit::usage);
+    } catch (const base::Failure& failure) {
+      EXPECT_EQ(failure.status(), base::Exit::usage);
     }
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/watch_calibration.h"
+#include "cli/live/watch_calibration.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "cli/watch_view.h"
+#include "cli/live/watch_view.h"
 
 namespace navcal::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/watch_view.h"
+#include "cli/live/watch_view.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "config/error.h"
 #include "fleet/plan.h"
 #include "fleet/result_store.h"
@@ -137,26 +137,26 @@ TEST_F(MakePlan, LeavesTheOldPlanWhereItFails) {
   EXPECT_THROW((void)folder_.make({"gap"}), config::Error);
   fs::remove(folder_.recordings() / "b.cap");
   EXPECT_EQ(keys(), before);
-  EXPECT_THROW((void)folder_.make({"nothing"}), analysis::Failure);
+  EXPECT_THROW((void)folder_.make({"nothing"}), base::Failure);
   for (const auto& entry : fs::directory_iterator(folder_.plan())) {
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
   }
 }
 
 TEST_F(MakePlan, RefusesAFolderThatIsNotThereAndAPlanThatIsAtWork) {
-  EXPECT_THROW((void)folder_.make(), analysis::Failure);
+  EXPECT_THROW((void)folder_.make(), base::Failure);
   folder_.add_recording("a.cap", 1);
   (void)folder_.make();
   const PlanLock held(folder_.plan());
-  EXPECT_THROW((void)folder_.make(), analysis::Failure);
+  EXPECT_THROW((void)folder_.make(), base::Failure);
 }
 
 TEST_F(MakePlan, AFolderWithoutAPlanAndADamagedCatalogueAreBadInput) {
-  EXPECT_THROW((void)load_plan(folder_.plan()), analysis::Failure);
+  EXPECT_THROW((void)load_plan(folder_.plan()), base::Failure);
   folder_.add_recording("a.cap", 1);
   (void)folder_.make();
   std::ofstream(catalogue_of(folder_.plan())) << "no database";
-  EXPECT_THROW((void)load_plan(folder_.plan()), analysis::Failure);
+  EXPECT_THROW((void)load_plan(folder_.plan()), base::Failure);
 }
 
 TEST_F(MakePlan, TasksAreNamedByNumbersListsAndRanges) {
@@ -167,7 +167,7 @@ TEST_F(MakePlan, TasksAreNamedByNumbersListsAndRanges) {
   EXPECT_EQ(tasks_named(plan, "1,5").at(1)->number, 5);
   EXPECT_EQ(tasks_named(plan, "2-4,1").size(), 4U);
   for (const char* wrong : {"", "0", "6", "a", "1-", "-1", "1,", "1;2", "4-2", "99999999999"}) {
-    EXPECT_THROW((void)tasks_named(plan, wrong), analysis::Failure) << wrong;
+    EXPECT_THROW((void)tasks_named(plan, wrong), base::Failure) << wrong;
   }
 }
 

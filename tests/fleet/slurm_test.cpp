@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/run_command.h"
 #include "fleet/slurm_run.h"
 #include "fleet/worker_pool.h"
 #include "tests/fleet/fleet_folder.h"
@@ -30,17 +31,9 @@ TEST(Slurm, LinesThatAreNoneAreNoArrays) {
   }
 }
 
-TEST(Slurm, ACommandThatIsNotThereIsNoCrash) {
-  EXPECT_EQ(run_command({"navcal-no-such-program"}).status, 127);
-  EXPECT_EQ(run_command({"sh", "-c", "echo out; echo err >&2; exit 3"}).status, 3);
-  EXPECT_EQ(run_command({"sh", "-c", "echo out; echo err >&2"}).out, "out\n");
-  EXPECT_EQ(run_command({"sh", "-c", "echo out; echo err >&2"}).err, "err\n");
-  EXPECT_EQ(run_command({"sh", "-c", "kill -9 $$"}).status, 128 + 9);
-}
-
 TEST(Slurm, AnyNameIsOneWordOfAShell) {
   for (const std::string text : {"plain", "two words", "it's", "$HOME `x` \"y\" \\", ""}) {
-    EXPECT_EQ(run_command({"sh", "-c", "printf %s " + shell_word(text)}).out, text);
+    EXPECT_EQ(base::run_command({"sh", "-c", "printf %s " + shell_word(text)}).out, text);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "analysis/failure.h"
+#include "base/failure.h"
 #include "fleet/merge.h"
 #include "fleet/slurm.h"
 #include "tests/fuzz/target.h"
@@ -27,7 +27,7 @@ NAVCAL_FUZZ(fleet) {
     for (const Task* task : tasks_named(plan, text)) {
       if (plan.task(task->number) != task) std::abort();
     }
-  } catch (const navcal::analysis::Failure&) {
+  } catch (const navcal::base::Failure&) {
   }
   for (const char* job : {"gap", "calibrate"}) {
     Database database(":memory:", Database::Access::create);

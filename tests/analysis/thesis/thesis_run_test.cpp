@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/failure.h"
 #include "analysis/thesis/thesis_parts.h"
 #include "analysis/thesis/thesis_results.h"
 #include "base/angles.h"
+#include "base/failure.h"
 #include "sim/path.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "base/interruptible.h"
+#include "cli/live/commands.h"
+#include "emulation/play_session.h"
+
+namespace navcal::cli {
+namespace {
+
+namespace asio = boost::asio;
+
+void run(const emulation::PlayArguments& arguments) {
+  asio::io_context io{1};
+  emulation::PlaySession session(io.get_executor(), arguments);
+  bool interrupted = false;
+  asio::signal_set signals(io);
+  for (const int signal : base::ending_signals()) signals.add(signal);
+  signals.async_wait([&](const boost::system::error_code& error, int) {
+    if (error) return;
+    interrupted = true;
+    io.stop();
+  });
+  std::exception_ptr failure;
+  asio::co_spawn(io, session.run(), [&](const std::exception_ptr& error) {
+    failure = error;
+    io.stop();
+  });
+  io.run();
+  if (failure) std::rethrow_exception(failure);
+  if (interrupted) fmt::print(stderr, "navcal play: interrupted\n");
+  session.report();
+}
+
+}  // namespace
+
+void add_play(CLI::App& app) {
+  auto* command = app.add_subcommand("play", "play a recording into pseudo-terminals at its own pace");
+  const auto arguments = std::make_shared<emulation::PlayArguments>();
+  command->add_option("FILE", arguments->file, "capture (.cap) or log (.mcap)")->required();
+  command->add_option("--dir", arguments->dir, "folder for the ports, DIR/<port>; created if missing")->required();
+  add_number(command, "--speed", 0.001, 1e6, arguments->speed, "factor of the speed over the recorded one");
+  add_number(command, "--wait", 0.0, 86400.0, arguments->wait_s,
+             "seconds to wait, after `ready`, until every port has been opened, so that nothing of the\n"
+             "beginning is missed; then it starts anyway. 0 starts at once");
+  command->footer(
+      "Like a real line it waits for no reader: unread bytes are lost, and counted at the end. Bytes sent "
+      "to\n"
+      "the devices are not played. Each read is one piece, as it was recorded.\n\n"
+      "Example: navcal play dive.cap --dir /tmp/ports & navcald --config navcald.toml");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/failure.h"
+#include "base/interruptible.h"
+#include "base/printable.h"
+#include "cli/live/commands.h"
+#include "cli/live/remote_console.h"
+#include "cli/live/remote_operator.h"
+#include "record/json/base64.h"
+#include "record/log/checksum.h"
+
+namespace navcal::cli {
+namespace {
+
+using RemoteJson = nlohmann::json;
+
+/// Bytes asked for at once: ten seconds on a link of 2 kB/s.
+constexpr std::uint64_t kRemotePart_bytes = 12288;
+/// Bytes whose checksum the vehicle gives at once.
+constexpr std::uint64_t kRemoteSum_bytes = 4 << 20;
+/// Time for which an answer is awaited on a link that may be dead for a while.
+constexpr double kRemotePatience_s = 600;
+
+[[noreturn]] void fail_remote(const std::string& why) { throw base::Failure(base::Exit::failed, why); }
+
+RemoteJson granted(RemoteOperator& remote, const RemoteJson& request) {
+  RemoteJson answer = RemoteJson::parse(remote.ask(request.dump(), kRemotePatience_s), nullptr, false);
+  if (!answer.is_object()) fail_remote("the vehicle's answer is no JSON object");
+  if (answer.value("ok", false)) return answer;
+  fail_remote("navcald: " + answer.value("error", std::string("refused")));
+}
+
+struct VehicleLog {
+  std::string name;
+  std::uint64_t bytes = 0;
+};
+
+std::vector<VehicleLog> logs_of(RemoteOperator& remote) {
+  std::vector<VehicleLog> logs;
+  for (bool more = true; more;) {
+    const RemoteJson page =
+        granted(remote, {{"command", "log.list"}, {"after", logs.empty() ? "" : logs.back().name}});
+    for (const RemoteJson& log : page.at("files")) logs.push_back({log.at("name"), log.at("bytes")});
+    more = page.value("more", false) && !page.at("files").empty();
+  }
+  return logs;
+}
+
+std::uint32_t sum_of_file(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t length) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(offset));
+  std::string bytes(length, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(length));
+  if (static_cast<std::uint64_t>(in.gcount()) != length) fail_remote(file.string() + ": cannot be read");
+  return record::crc32(bytes);
+}
+
+/// Compares `bytes` bytes of a file with those of the log, by checksums that the vehicle makes.
+bool is_same(RemoteOperator& remote, const std::string& name, const std::filesystem::path& file,
+             std::uint64_t bytes) {
+  for (std::uint64_t offset = 0; offset < bytes;) {
+    const std::uint64_t length = std::min(kRemoteSum_bytes, bytes - offset);
+    const RemoteJson sum =
+        granted(remote, {{"command", "log.sum"}, {"file", name}, {"offset", offset}, {"length", length}});
+    if (sum.at("length") != length || sum.at("crc32") != sum_of_file(file, offset, length)) return false;
+    offset += length;
+  }
+  return true;
+}
+
+void append_part(RemoteOperator& remote, const std::string& name, const std::filesystem::path& part,
+                 std::uint64_t offset) {
+  const RemoteJson answer = granted(
+      remote, {{"command", "log.read"}, {"file", name}, {"offset", offset}, {"length", kRemotePart_bytes}});
+  const auto bytes = record::from_base64(answer.at("data").get<std::string>());
+  if (!bytes || bytes->empty() || answer.value("crc32", record::crc32(*bytes)) != record::crc32(*bytes))
+    fail_remote(name + ": a part is damaged, or the log has become shorter");
+  std::ofstream out(part, std::ios::binary | std::ios::app);
+  out.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
+  out.close();
+  if (!out) fail_remote(part.string() + ": cannot be written");
+}
+
+/// The vehicle's logs as text, one a line: name and bytes. Throws base::Failure with the vehicle's words.
+std::string list_files(RemoteOperator& remote) {
+  try {
+    std::string out;
+    for (const VehicleLog& log : logs_of(remote)) out += fmt::format("{:>12}  {}\n", log.bytes, log.name);
+    return out;
+  } catch (const RemoteJson::exception& error) {
+    fail_remote(std::string("the vehicle's list of logs cannot be read: ") + error.what());
+  }
+}
+
+/// Copies a log. What has come is in `target`.part, from where the next call goes on; the file gets its name when
+/// it is whole and its checksum is right. Throws base::Failure with the reason.
+void get_file(RemoteOperator& remote, const std::string& name, const std::filesystem::path& target) {
+  try {
+    const auto logs = logs_of(remote);
+    const auto found =
+        std::find_if(logs.begin(), logs.end(), [&](const VehicleLog& log) { return log.name == name; });
+    if (found == logs.end()) throw base::Failure(base::Exit::bad_input, name + ": the vehicle has no such log");
+    if (name.find('/') != std::string::npos) fail_remote(name + ": not the name of a log");
+    if (std::filesystem::exists(target)) fail_remote(target.string() + ": is there already");
+    const std::filesystem::path part = target.string() + ".part";
+    std::error_code error;
+    std::uint64_t bytes = std::filesystem::file_size(part, error);
+    if (error) bytes = 0;
+    if (bytes > found->bytes || (bytes > 0 && !is_same(remote, name, part, bytes))) {
+      fmt::print(stderr, "navcal remote: {} belongs to another log, and begins anew\n", part.string());
+      std::filesystem::remove(part);
+      bytes = 0;
+    }
+    while (bytes < found->bytes) {
+      append_part(remote, name, part, bytes);
+      bytes = std::filesystem::file_size(part);
+      fmt::print(stderr, "\rnavcal remote: {} of {} bytes", bytes, found->bytes);
+    }
+    fmt::print(stderr, "\n");
+    if (found->bytes == 0) std::ofstream(part).close();
+    if (bytes > found->bytes) std::filesystem::resize_file(part, found->bytes);
+    if (!is_same(remote, name, part, found->bytes)) fail_remote(part.string() + ": the checksum is wrong");
+    std::filesystem::rename(part, target);
+  } catch (const RemoteJson::exception& error) {
+    fail_remote(name + ": the vehicle's answer cannot be read: " + error.what());
+  }
+}
+
+using RemoteClock = RemoteOperator::Clock;
+
+struct RemoteCommandOptions {
+  RemoteOperator::Options remote;
+  std::string action;
+  std::string argument;
+  std::string output;
+  bool json = false;
+  double seconds = 0;
+  double wait_s = 30;
+};
+
+/// Standard input in lines.
+class TypedLines {
+ public:
+  /// The descriptor to wait for; -1 after the end.
+  [[nodiscard]] int fd() const { return is_over_ ? -1 : STDIN_FILENO; }
+  [[nodiscard]] bool is_over() const { return is_over_; }
+  /// Reads what is there. Called only when something is.
+  void read() {
+    char bytes[512];
+    const ssize_t n = ::read(STDIN_FILENO, bytes, sizeof bytes);
+    if (n > 0) {
+      text_.append(bytes, static_cast<std::size_t>(n));
+    } else if (n == 0 || (errno != EINTR && errno != EAGAIN)) {
+      is_over_ = true;
+    }
+  }
+  [[nodiscard]] std::optional<std::string> next() {
+    const auto end = text_.find('\n');
+    if (end == std::string::npos) return std::nullopt;
+    std::string line = text_.substr(0, end);
+    text_.erase(0, end + 1);
+    return line;
+  }
+
+ private:
+  std::string text_;
+  bool is_over_ = false;
+};
+
+bool can_be_read(int fd) {
+  pollfd readable{fd, POLLIN, 0};
+  return fd >= 0 && ::poll(&readable, 1, 0) > 0;
+}
+
+/// Throws std::runtime_error when the vehicle was not stopped.
+void stop_vehicle(RemoteOperator& remote, double wait_s) {
+  remote.stop();
+  std::optional<std::string> answer;
+  const auto until = RemoteOperator::after(wait_s);
+  while (!(answer = remote.take_answer()) && RemoteClock::now() < until && !base::Interruptible::interrupted())
+    remote.work(until);
+  if (answer != "ok") throw std::runtime_error("NOT stopped: " + answer.value_or("no answer came"));
+  fmt::print("stopped: the safe state was ordered, and nobody is in charge\n");
+}
+
+/// Takes typed lines until Ctrl-C, quit or the end of the time.
+void drive_by_hand(RemoteOperator& remote, const RemoteCommandOptions& options) {
+  const auto picture = options.json                   ? RemoteConsole::Picture::json
+                       : ::isatty(STDOUT_FILENO) != 0 ? RemoteConsole::Picture::terminal
+                                                      : RemoteConsole::Picture::lines;
+  RemoteConsole console(remote, picture);
+  TypedLines typed;
+  const auto end = RemoteOperator::after(options.seconds > 0 ? options.seconds : 1e8);
+  bool goes_on = true;
+  while (goes_on && RemoteClock::now() < end && !base::Interruptible::interrupted() && std::ferror(stdout) == 0) {
+    // Commands that arrive before there is a session wait for it.
+    const bool may_type = remote.host().has_session();
+    remote.work(end, may_type ? typed.fd() : -1);
+    console.show();
+    if (!may_type || !can_be_read(typed.fd())) continue;
+    typed.read();
+    while (goes_on) {
+      const auto line = typed.next();
+      if (!line) break;
+      goes_on = console.take(*line);
+    }
+    // Nobody can type any more: nobody is in charge.
+    if (typed.is_over() && remote.is_in_charge()) remote.release();
+  }
+  remote.end();
+  console.show();
+}
+
+void run_remote(const RemoteCommandOptions& options) {
+  const base::Interruptible interruptible;
+  std::signal(SIGPIPE, SIG_IGN);
+  RemoteOperator remote(options.remote);
+  if (options.action.empty()) return drive_by_hand(remote, options);
+  remote.wait_for_session(options.wait_s);
+  if (options.action == "ls") {
+    fmt::print("{}", base::printable(list_files(remote), "\n"));
+  } else if (options.action == "get") {
+    get_file(remote, options.argument, options.output.empty() ? options.argument : options.output);
+  } else if (options.action == "stop") {
+    stop_vehicle(remote, options.wait_s);
+  } else {
+    const std::string line = options.action == "status" ? R"({"command":"status"})" : options.argument;
+    fmt::print("{}\n", base::printable(remote.ask(line, options.wait_s), "\n"));
+  }
+  remote.end();
+}
+
+void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
+  add_valued(command, "--baud", "BAUD [57600]", options.remote.baud, "speed of the serial port")
+      ->check(CLI::Range(300, 4000000));
+  add_valued(command, "--key-file", "FILE", options.remote.key_file,
+             "the key that vehicle and operator share; only its owner may have access to the file");
+  add_valued(command, "--budget", "B/S [2000]", options.remote.budget_B_s,
+             "bytes a second that this end sends at most")
+      ->check(CLI::Range(300.0, 1e6));
+  add_valued(command, "--wait", "SECONDS [30]", options.wait_s, "at most, for the vehicle and for an answer")
+      ->check(CLI::Range(0.1, 86400.0));
+}
+
+}  // namespace
+
+void add_remote(CLI::App& app) {
+  auto* command = app.add_subcommand("remote", "watches and steers a vehicle over a modem or TCP");
+  const auto options = std::make_shared<RemoteCommandOptions>();
+  add_valued(command, "port", "PORT", options->remote.address, "the modem's serial port, or tcp:HOST:PORT")
+      ->required();
+  auto* const action =
+      add_valued(command, "action", "[status|stop|send|ls|get]", options->action,
+                 "status; stop ends every lease, and the vehicle orders its safe state; send a line of the "
+                 "control socket; ls\nlists the logs; get copies one and goes on where it was interrupted. "
+                 "Without one: the live view, which takes\ntyped commands")
+          ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}));
+  add_valued(command, "argument", "[JSON|NAME]", options->argument,
+             "of send: the line, an object of JSON; of get: the log's name")
+      ->needs(action);
+  add_valued(command, "-o,--output", "FILE [NAME]", options->output, "where get puts the log");
+  add_line_options(command, *options);
+  add_valued(command, "--holder", "NAME [operator]", options->remote.holder,
+             "name of the lease's holder, as others see it");
+  add_valued(command, "--priority", "NUMBER [10]", options->remote.priority,
+             "of the lease of the motor card, against others'")
+      ->check(CLI::Range(0, 1000));
+  add_valued(command, "--lease-timeout", "SECONDS [5]", options->remote.lease_timeout_s,
+             "the vehicle stops when no order has come for so long")
+      ->check(CLI::Range(0.1, 60.0));
+  command->add_flag("--json", options->json, "prints reports and answers as lines of JSON");
+  add_valued(command, "--seconds", "SECONDS [0]", options->seconds, "end after this time (0: at Ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
+  command->footer(
+      "Typed commands: lease; order RPM A B C; stop; release; status; send {JSON}; quit. Ctrl-C, and closing the "
+      "terminal,\ngive the lease back: the vehicle orders its safe state. docs/remote.md tells what a dead link "
+      "does.\n\n"
+      "Example: navcal remote /dev/ttyUSB0 --key-file ~/.navcal-key");
+  command->callback([options] {
+    const bool needs_argument = options->action == "send" || options->action == "get";
+    if (needs_argument == options->argument.empty())
+      throw base::Failure(base::Exit::usage, needs_argument ? options->action + " needs an argument"
+                                                            : options->action + " takes no argument");
+    run_remote(*options);
+  });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/live/shared_options.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+
+#include "base/failure.h"
+#include "cli/live/option_kinds.h"
+
+namespace navcal::cli {
+
+record::TimeWindow WindowOptions::window() const {
+  const auto bound = [](const char* option, const std::string& text) -> std::optional<record::TimeBound> {
+    if (text.empty()) return std::nullopt;
+    const auto found = record::parse_time_bound(text);
+    if (!found)
+      throw base::Failure(base::Exit::usage, std::string(option) + ' ' + text +
+                                                 ": expected seconds from the start, or UTC such as "
+                                                 "2026-01-01T00:00:12Z");
+    return found;
+  };
+  return {bound("--from", from), bound("--to", to)};
+}
+
+void add_window(CLI::App& command, WindowOptions& options, const std::string& from_otherwise) {
+  add_valued(&command, "--from", "T", options.from,
+             "begin of the part of each recording that is used: seconds from its start, or UTC" + from_otherwise);
+  add_valued(&command, "--to", "T", options.to, "end of that part");
+}
+
+void add_effect_options(CLI::App* command, std::vector<std::string>& effects, std::filesystem::path& file) {
+  add_valued(command, "--effect", "NAME[@OF][=STRENGTH]", effects,
+             "departure from the nominal model, in typical strengths (default: 1); its direction comes from "
+             "the seed;\nrepeatable. Of a part of a layout: thrust_scale@thruster.2=1. navcal simulate "
+             "--list-effects names all")
+      ->each([](const std::string& text) {
+        if (text.find('=') == std::string::npos)
+          fmt::print(stderr, "navcal: --effect {0}: strength 1, the typical one; half of it: --effect {0}=0.5\n",
+                     text);
+      });
+  add_valued(command, "--effects", "FILE.toml", file,
+             "departures with exact parameters: one table [NAME] for each, which may have from_s and until_s");
+}
+
+namespace {
+
+constexpr double kSlowest = 0.25, kFastest = 4;
+constexpr std::array<std::string_view, 3> kPorts{"compass", "imu", "motor"};
+
+std::optional<sim::ClockFactor> parse(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) return std::nullopt;
+  sim::ClockFactor clock{text.substr(0, equals), 0};
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + equals + 1, end, clock.factor);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  if (!(clock.factor >= kSlowest && clock.factor <= kFastest)) return std::nullopt;
+  for (const auto port : kPorts) {
+    if (clock.port == port) return clock;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_clock_option(CLI::App* command, std::vector<sim::ClockFactor>& clocks) {
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--clock",
+          [&clocks](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const auto clock = parse(text);
+              if (!clock)
+                throw CLI::ValidationError(
+                    "--clock", "must be compass, imu or motor = 0.25 to 4 (rate over nominal): " + text);
+              clocks.push_back(*clock);
+            }
+          },
+          "true rate of compass, imu or motor over the nominal one, by its clock, such as compass=0.99; "
+          "repeatable")
+      ->option_text("PORT=FACTOR");
+}
+
+void add_place_and_field(CLI::App* command, emulation::PlaceArguments& arguments) {
+  add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", arguments.place,
+             "degrees north and east, metres above the ellipsoid; the Earth's field there is the World "
+             "Magnetic Model's");
+  add_valued(command, "--field", "N,E,D", arguments.field,
+             "the Earth's field in uT: north, east and down of true north");
+}
+
+}  // namespace navcal::cli

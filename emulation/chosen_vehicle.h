@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "base/failure.h"
+#include "config/layout.h"
+#include "config/vehicle.h"
+#include "sim/layout/layout_motion.h"
+
+namespace navcal::emulation {
+
+/// A vehicle of one propeller and three fins, or one of any shape.
+using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
+
+/// The vehicle of a file, or the reference vehicle without one. A file with one of the tables body, added_mass,
+/// thruster, surface, ballast and moving_mass is a layout. Throws config::Error.
+[[nodiscard]] ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file);
+
+/// The layout of a file; nullopt where the file is none, or there is no file. Throws config::Error.
+[[nodiscard]] std::optional<config::Layout> layout_in(const std::filesystem::path& file);
+
+struct LayoutOnMission {
+  std::unique_ptr<sim::LayoutMotion> motion;
+  std::string remark;  ///< what is less than the mission asks for; empty: nothing
+};
+
+/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws
+/// config::Error, and Failure where the layout cannot be simulated, or cannot do what the mission needs.
+[[nodiscard]] LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
+                                                const std::string& mission, const sim::MotionOptions& options);
+
+/// Throws Failure where a layout, or what effects make of it at any time, has no equations of motion, and where it
+/// has more actuators than a recording has outputs. `effects` may be null.
+void expect_simulable(const config::Layout& layout, const std::filesystem::path& file,
+                      sim::VehicleInfluencer* effects);
+
+}  // namespace navcal::emulation
