@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/gps/gps_compass.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
+#include "base/symmetric_solve.h"
 #include "calib/coverage.h"
 #include "calib/gps/gps_coefficients.h"
 
@@ -80,11 +80,10 @@ GpsCompass::Estimate GpsCompass::iterate(Vector x, int steps) const {
   for (int step = 0;; ++step) {
     hessian = (at.slope.adjoint() * information * at.slope).real();
     hessian.diagonal() += weight;
-    const Eigen::LDLT<Matrix> solver(hessian);
-    estimate.covariance = solver.solve(Matrix::Identity());
+    estimate.covariance = base::inverse_symmetric(hessian);
     if (step == steps || estimate.converged) break;
-    Vector change =
-        solver.solve((at.slope.adjoint() * (summary_.right() - seen)).real() - weight.cwiseProduct(x - mean));
+    Vector change = base::solve_symmetric(
+        hessian, (at.slope.adjoint() * (summary_.right() - seen)).real() - weight.cwiseProduct(x - mean));
     if (!change.allFinite()) break;
     // Halved while it leads uphill; at the foot rounding decides, and the step is too small to matter.
     for (int half = 0; half < 10; ++half, change /= 2) {

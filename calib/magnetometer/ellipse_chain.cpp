@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/symmetric_solve.h"
+
 namespace navcal::calib {
 namespace {
 
@@ -128,8 +130,7 @@ void improve(EllipseChain& chain, const std::vector<TurnGroup>& groups, const Gy
   const ChainVector scale = e.information.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
   const ChainMatrix scaled =
       scale.asDiagonal() * e.information * scale.asDiagonal() + 1e-14 * ChainMatrix::Identity().eval();
-  const ChainMatrix inverse =
-      scale.asDiagonal() * scaled.ldlt().solve(ChainMatrix::Identity()).eval() * scale.asDiagonal();
+  const ChainMatrix inverse = scale.asDiagonal() * base::inverse_symmetric(scaled) * scale.asDiagonal();
   const ChainVector step = inverse * e.gradient;
 
   EllipseChain moved = chain;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/symmetric_solve.h"
 #include "calib/magnetometer/ellipse_chain.h"
 #include "calib/magnetometer/ellipse_fit.h"
 
@@ -43,7 +44,7 @@ bool start_from_ellipse(EllipseChain& chain, const std::vector<TurnGroup>& group
     }
     chain.headings_rad.push_back(heading);
   }
-  chain.gyro = normal.ldlt().solve(right);
+  chain.gyro = base::solve_symmetric(normal, right);
   return chain.gyro.allFinite();
 }
 
@@ -66,7 +67,7 @@ bool start_from_gyro(EllipseChain& chain, const std::vector<TurnGroup>& groups, 
     normal += groups[k].count * row * row.transpose();
     right += groups[k].count * row * groups[k].field_uT.transpose();
   }
-  const Eigen::Matrix<double, 3, 2> solution = normal.ldlt().solve(right);
+  const Eigen::Matrix<double, 3, 2> solution = base::solve_symmetric(normal, right);
   const Eigen::Matrix2d turned_axes = solution.bottomRows<2>().transpose();
   if (!solution.allFinite() || !(turned_axes.determinant() > 0)) return false;
   const Eigen::JacobiSVD<Eigen::Matrix2d> svd(turned_axes, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/symmetric_solve.h"
 #include "calib/magnetometer/ellipse_shape.h"
 
 namespace navcal::calib {
@@ -109,11 +110,11 @@ EllipseFit improve(const EllipseFit& fit, const EllipseCells& cells, double nois
   // A ridge of one reading in a hundred thousand, so that what is not seen has a large variance and no division
   // by zero.
   const EllipseShape::Matrix ridge = 1e-9 * sums.count * EllipseShape::Matrix::Identity();
-  next.covariance = variance * (sums.information + ridge).ldlt().solve(EllipseShape::Matrix::Identity());
+  next.covariance = variance * base::inverse_symmetric(sums.information + ridge);
 
   EllipseShape::Matrix damped = sums.information + ridge;
   damped.diagonal() *= 1 + fit.damping;
-  const EllipseShape::Vector step = damped.ldlt().solve(sums.gradient);
+  const EllipseShape::Vector step = base::solve_symmetric(damped, sums.gradient);
   const EllipseShape moved = fit.shape.moved(step);
   // Close to the end the cost no longer tells: the arc within a cell has a slope of its own that is left out here.
   const bool close = fit.damping == 0 && step.cwiseAbs().maxCoeff() < 1e-3 * fit.shape.axes_uT.trace();

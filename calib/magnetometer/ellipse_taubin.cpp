@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/symmetric_eigen.h"
+#include "base/symmetric_solve.h"
 #include "calib/magnetometer/ellipse_fit.h"
 
 namespace navcal::calib {
@@ -63,7 +64,7 @@ std::optional<EllipseShape> circle(const EllipseCells& cells, const Frame& frame
     normal += cell.count * row * row.transpose();
     right += cell.count * x.squaredNorm() * row;
   }
-  const Eigen::Vector3d solution = normal.ldlt().solve(right);
+  const Eigen::Vector3d solution = base::solve_symmetric(normal, right);
   const Eigen::Vector2d centre = solution.head<2>() / 2;
   EllipseShape shape;
   shape.centre_uT = frame.origin_uT + frame.scale_uT * centre;

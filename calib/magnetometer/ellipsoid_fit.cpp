@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/symmetric_solve.h"
 #include "calib/magnetometer/ellipsoid_residual.h"
 
 namespace navcal::calib {
@@ -89,13 +90,13 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
   // Each parameter is scaled by its own information, so that centre (uT) and matrix (1/uT) are comparable.
   const ShapeVector scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix scaled = scale.asDiagonal() * information * scale.asDiagonal() + 1e-13 * Matrix::Identity().eval();
-  const auto solved = [&](double damping, const auto& right) {
+  const auto solved = [&](double damping, const Eigen::MatrixXd& right) {
     Matrix damped = scaled;
     damped.diagonal() *= 1 + damping;
-    return (scale.asDiagonal() * damped.ldlt().solve((scale.asDiagonal() * right).eval())).eval();
+    return Eigen::MatrixXd(scale.asDiagonal() * base::solve_symmetric(damped, scale.asDiagonal() * right));
   };
   EllipsoidFit next = fit;
-  next.covariance = solved(0, Matrix::Identity().eval());
+  next.covariance = solved(0, Matrix::Identity());
   const ShapeVector step = solved(fit.damping, gradient);
   const EllipsoidShape moved = fit.shape.moved(step);
   // Close to the end the cost no longer tells: the arc within a cell has a slope of its own that is left out here.

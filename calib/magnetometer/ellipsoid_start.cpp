@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/symmetric_solve.h"
 #include "calib/magnetometer/ellipsoid_fit.h"
 
 namespace navcal::calib {
@@ -46,7 +47,7 @@ std::optional<EllipsoidShape> starting_sphere(const EllipsoidCells& cells, const
     add(count, row, magnitude * std::sin(prior.known->dip_rad));
   }
   normal.diagonal().array() += 1e-6 * count;
-  const Eigen::Matrix<double, 5, 1> solution = normal.ldlt().solve(right);
+  const Eigen::Matrix<double, 5, 1> solution = base::solve_symmetric(normal, right);
   const Eigen::Vector3d centre = solution.head<3>();
   double radius = std::sqrt(std::max(solution[3] + centre.squaredNorm(), 0.01));
   if (prior.known) radius = magnitude;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/symmetric_solve.h"
+
 namespace navcal::calib {
 namespace {
 
@@ -183,8 +185,7 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information, double damping) {
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
   scaled.diagonal() *= 1 + damping + 1e-12;
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
-  return scale.asDiagonal() * scaled.ldlt().solve(identity) * scale.asDiagonal();
+  return scale.asDiagonal() * base::inverse_symmetric(scaled) * scale.asDiagonal();
 }
 
 /// Step of a segment from the shift of the first, the shape being held: |v + e|^2 = 1 and down'(v + e) = sine of
@@ -201,7 +202,7 @@ Eigen::Vector3d step_of(const EllipsoidCells& cells, const State& state) {
     right += by_size * (1 - v.squaredNorm());
     if (!down.isZero(0)) right += by_dip * (state.sine_of_dip - down.dot(v));
   }
-  return normal.ldlt().solve(right).head<3>();
+  return base::solve_symmetric(normal, right).topRows<3>();
 }
 
 /// Minimises the cost from `state` to the nearest local minimum.

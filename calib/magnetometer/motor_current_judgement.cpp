@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the windows of MotorCurrent say together.
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "base/symmetric_solve.h"
 #include "calib/magnetometer/motor_current.h"
 
 namespace navcal::calib {
@@ -47,14 +47,14 @@ std::optional<MotorCurrent::Estimate> MotorCurrent::estimate() const {
   if (windows_.empty() || !(of_slope.selfadjointView<Eigen::Lower>().eigenvalues()[0] > kLeastInformation)) {
     return std::nullopt;
   }
-  const Information covariance = information.inverse();
+  const Information covariance = base::inverse_symmetric(information);
   const Vector found = covariance * vector;
   // Each window's gradient at the common solution has its information as covariance, if there is only noise.
   double chi_square = 0;
   for (const MotorFieldEvidence& window : windows_) {
     const Vector gradient = window.vector - window.information * found;
     const Information firm = window.information + kLeastInformation * Information::Identity();
-    chi_square += gradient.dot(firm.ldlt().solve(gradient));
+    chi_square += gradient.dot(Vector(base::solve_symmetric(firm, gradient)));
   }
   const double prior = 3 * kPriorWindows;
   const double spread = std::max(1.0, (chi_square + prior) / (std::max(freedom - 6, 0.0) + prior));
@@ -81,7 +81,8 @@ Judgement MotorCurrent::judgement() const {
   if (std > limit) {
     return judgement.refused("the field per ampere is uncertain by " + two_digits(std) + " uT/A", manoeuvre);
   }
-  const double chi_square = found->slope_uT_per_A.dot(found->covariance.ldlt().solve(found->slope_uT_per_A));
+  const Eigen::Vector3d weighted = base::solve_symmetric(found->covariance, found->slope_uT_per_A);
+  const double chi_square = found->slope_uT_per_A.dot(weighted);
   if (chi_square < kSeen) {
     return judgement.refused(
         "no field of the motor's current is seen beyond the error of " + two_digits(std) + " uT/A", "");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/magnetometer/motor_window.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/symmetric_solve.h"
 #include "base/vectors.h"
 
 namespace navcal::calib {
@@ -88,7 +88,7 @@ void forget_hard_iron(MotorFieldEvidence& evidence, Eigen::Index axis) {
     vector[row++] = evidence.vector[i];
   }
   others.diagonal().array() += kSlopeInformation * 1e-3;  // components that were dropped before have none
-  const Others solved = others.ldlt().solve(with);
+  const Others solved = base::solve_symmetric(others, with);
   evidence.information(dropped, dropped) = with.dot(solved);
   evidence.vector[dropped] = vector.dot(solved);
 }
@@ -190,7 +190,7 @@ class WindowFilter {
   [[nodiscard]] MotorFieldEvidence evidence(double values) const {
     MotorFieldEvidence evidence;
     const std::array<Eigen::Index, 6> places{kSlope, kSlope + 1, kSlope + 2, kHardAt, kHardAt + 1, kHardAt + 2};
-    const MotorFieldEvidence::Information information = covariance_(places, places).inverse();
+    const MotorFieldEvidence::Information information = base::inverse_symmetric(covariance_(places, places));
     const MotorFieldEvidence::Vector best = state_(places);
     // Residuals that are larger than the noise says: everything is less certain.
     const double larger = std::max(1.0, excess(values));
@@ -234,8 +234,9 @@ double MotorFieldEvidence::mean_square_uT2(const Eigen::Vector3d& k) const {
   Eigen::Matrix3d of_iron = information.bottomRightCorner<3, 3>();
   of_iron.diagonal().array() += 1 / (kHardIron_uT * kHardIron_uT);
   const Eigen::Vector3d pull = vector.tail<3>() - information.bottomLeftCorner<3, 3>() * k;
-  const double misfit = square - 2 * vector.head<3>().dot(k) + k.dot(information.topLeftCorner<3, 3>() * k) -
-                        pull.dot(of_iron.ldlt().solve(pull));
+  const Eigen::Vector3d iron = base::solve_symmetric(of_iron, pull);
+  const double misfit =
+      square - 2 * vector.head<3>().dot(k) + k.dot(information.topLeftCorner<3, 3>() * k) - pull.dot(iron);
   return std::max(0.0, misfit) * variance_uT2 / values;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/reference/heading_reference.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "base/angles.h"
+#include "base/symmetric_solve.h"
 #include "calib/coverage.h"
 #include "calib/gps/gps_coefficients.h"
 
@@ -96,7 +96,7 @@ std::optional<HeadingReference::Estimate> HeadingReference::estimate(double decl
   prior[5] = 1 / std::max(time_variance_s2_ / pairs, kLeastTime_s2);
   Matrix information = all.information;
   information.diagonal() += prior;
-  const Matrix inverse = Eigen::LDLT<Matrix>(information).solve(Matrix::Identity());
+  const Matrix inverse = base::inverse_symmetric(information);
   const Vector x = inverse * all.right;
   if (!x.allFinite()) return std::nullopt;
   const double square = all.square - 2 * x.dot(all.right) + x.dot(all.information * x);

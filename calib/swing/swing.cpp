@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/swing/swing.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <string>
 
 #include "base/angles.h"
+#include "base/symmetric_solve.h"
 #include "calib/gps/gps_coefficients.h"
 
 namespace navcal::calib {
@@ -105,11 +105,10 @@ std::optional<Swing::Estimate> Swing::estimate() const {
     information += weight * f * f.transpose();
     right += weight * f * base::wrapped(heading.deviation_rad - about_rad);
   }
-  const Eigen::LDLT<Matrix> solver(information);
   Estimate estimate;
-  estimate.deviation = solver.solve(right);
+  estimate.deviation = base::solve_symmetric(information, right);
   estimate.deviation[0] = base::wrapped(estimate.deviation[0] + about_rad);
-  estimate.covariance = solver.solve(Matrix::Identity());
+  estimate.covariance = base::inverse_symmetric(information);
   double square = 0;
   for (const Heading& heading : seen) {
     if (heading.rests == 0) continue;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/turn/tilt_smoother.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "base/square.h"
+#include "base/symmetric_solve.h"
 
 namespace navcal::calib {
 namespace {
@@ -94,7 +94,7 @@ void TiltSmoother::predict(const Eigen::Vector3d& rate_rad_s, double duration_s)
 }
 
 void TiltSmoother::correct(const Eigen::Vector2d& shown_rad) {
-  node(count_ - 1).gain = covariance_.ldlt().solve(since_).transpose();
+  node(count_ - 1).gain = base::solve_symmetric(covariance_, since_).transpose();
   const Eigen::Matrix<double, kStates, 2> with_shown = covariance_.middleCols<2>(kShownRoll);
   Eigen::Matrix2d variance = with_shown.middleRows<2>(kShownRoll);
   variance.diagonal().array() += base::square(parameters_.tilt_noise_rad);

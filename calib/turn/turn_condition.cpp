@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/LU>
 #include <limits>
 
 #include "base/symmetric_eigen.h"
+#include "base/symmetric_solve.h"
 #include "calib/turn/turn_filter.h"
 
 namespace navcal::calib {
@@ -18,7 +18,7 @@ double TurnFilter::condition() const {
     information.col(i).setZero();
     information(i, i) = 1;
   }
-  information = information.inverse().eval();
+  information = base::inverse_symmetric(information);
   for (int i = 0; i < 6; ++i) {
     if (!sought(i)) continue;
     const double believed = 1 / prior_.covariance(i, i);

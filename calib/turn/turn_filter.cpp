@@ -2,11 +2,11 @@
 #include "calib/turn/turn_filter.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
+#include "base/symmetric_solve.h"
 
 namespace navcal::calib {
 namespace {
@@ -87,7 +87,7 @@ TurnFilter::TurnFilter(const Parameters& parameters, const TurnPrior& prior)
     // Held: no row will touch it, and what stands here only keeps the matrix regular.
     if (held(kConstants[i])) covariance(i, i) = 1;
   }
-  prior_information_ = covariance.inverse();
+  prior_information_ = base::inverse_symmetric(covariance);
   const Constants slope = prior_information_ * with_bias;
   track_.row(1) << -prior.mean[kBias], slope.transpose();
   covariance_(1, 1) = std::max(prior.covariance(kBias, kBias) - with_bias.dot(slope), 0.0);
@@ -208,9 +208,9 @@ void TurnFilter::solve() {
   const ConstantsMatrix from_data = products_.bottomRightCorner<5, 5>();
   const ConstantsMatrix information = from_data + prior_information_;
   const Constants moment = products_.bottomLeftCorner<5, 1>();
-  const Eigen::LDLT<ConstantsMatrix> factors(information);
+  const Eigen::LLT<ConstantsMatrix> factors(information);
   solution_.departure = factors.solve(moment);
-  log_likelihood_ = -(log_variances_ + factors.vectorD().array().log().sum() + products_(0, 0) -
+  log_likelihood_ = -(log_variances_ + 2 * factors.matrixLLT().diagonal().array().log().sum() + products_(0, 0) -
                       moment.dot(solution_.departure)) /
                     2;
   // The ratio of the actual to the stated noise is taken at the estimate, which depends on that ratio. Two
@@ -225,11 +225,10 @@ void TurnFilter::solve() {
     const ConstantsMatrix noise_information = noise.bottomRightCorner<5, 5>();
     if (ConstantsMatrix(information - 2 * noise_information).llt().info() != Eigen::Success) {
       solution_.departure.setZero();
-      solution_.covariance = prior_information_.inverse();
+      solution_.covariance = base::inverse_symmetric(prior_information_);
       return;
     }
-    const ConstantsMatrix inverse =
-        ConstantsMatrix(information - noise_information).ldlt().solve(ConstantsMatrix::Identity());
+    const ConstantsMatrix inverse = base::inverse_symmetric(information - noise_information);
     solution_.departure = inverse * (moment - noise.bottomLeftCorner<5, 1>());
     if (pass < kPasses - 1) continue;  // only departure and squares enter the next one
     // The subtraction made the information smaller, not the noise; and a compass whose deviation falls with the
