@@ -54,12 +54,11 @@ void add_research(CLI::App& app);
 void add_thesis(CLI::App& app);
 void add_validate_runs(CLI::App& app);
 
-// Of log, each in a file of its own: those of navcal log
-/// that ask a running navcald (list, fetch, start, stop and select),
-void add_log_control(CLI::App& app);
-// and those that read files.
+// Of log, each in a file of its own: those that read files,
 void add_log_import(CLI::App& app);
 void add_log_surfacings(CLI::App& app);
+/// and those that ask a running navcald (list, fetch, start, stop and select).
+void add_log_control(CLI::App& app);
 
 // Called by the command that they are part of:
 void add_gap_next(CLI::App& gap);

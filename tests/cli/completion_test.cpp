@@ -32,7 +32,7 @@ class Completion : public testing::Test {
 TEST_F(Completion, CommandsAndTheirCommands) {
   EXPECT_EQ(offered("navcal dec"), "decode");
   EXPECT_EQ(offered("navcal do"), "doctor");
-  EXPECT_EQ(offered("navcal log ''"), "info finish import export surfacings list fetch start stop select");
+  EXPECT_EQ(offered("navcal log ''"), "info finish export import surfacings list fetch start stop select");
   EXPECT_EQ(offered("navcal log ex"), "export");
   EXPECT_NE(offered("navcal ''").find("watch"), std::string::npos);
   EXPECT_EQ(offered("navcal thes"), "") << "listed by navcal research only";
