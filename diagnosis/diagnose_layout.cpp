@@ -32,7 +32,9 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
           : fmt::format("the floor is that of {} nominal recording{}", bank.powers.size(),
                         bank.powers.size() == 1 ? "" : "s"));
   const auto filter_of = [&](const RecordedMotion& of) {
-    return FittedRecording(request.layout, library, of, bank.noises, threads);
+    FittedRecording fitted(request.layout, library, of, bank.noises, threads);
+    fitted.hold_gains(bank.prior.mean);
+    return fitted;
   };
   const FittedRecording mine = filter_of(recording);
   for (const std::string& oddity : mine.filter().oddities()) answer.remarks.push_back(oddity);

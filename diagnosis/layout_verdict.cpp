@@ -208,6 +208,71 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
+/// Log odds that are expected where one parameter has a size and nothing else has changed, nats.
+double expected_gain(const LayoutEvidence& evidence, std::size_t cause, Eigen::Index column, double size) {
+  Likelihood changes = evidence.found.changes;
+  changes.score = changes.information.col(column) * size;
+  return SetEvidence(std::move(changes), evidence.library).gain({cause});
+}
+
+/// By bisection: the expected log odds grow with the size.
+std::optional<double> least_visible_size(const LayoutEvidence& evidence, std::size_t cause,
+                                         const CauseParameter& parameter) {
+  constexpr double kMostTypical = 20;
+  constexpr int kHalvings = 12;
+  const double needed_nats = kGap_nats + evidence.bank.chance_nats[cause];
+  const double sign = parameter.high >= -parameter.low ? 1 : -1;
+  double below = 0, size = kMostTypical * parameter.typical;
+  if (!evidence.library.causes[cause].is_instrument)
+    size = std::min(size, std::max(parameter.high, -parameter.low));
+  const auto is_visible = [&](double value) {
+    return expected_gain(evidence, cause, parameter.column, sign * value * parameter.per_unit) >= needed_nats;
+  };
+  if (!is_visible(size)) return std::nullopt;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (below + size) / 2;
+    (is_visible(middle) ? size : below) = middle;
+  }
+  return size;
+}
+
+/// Of each cause, by the parameter of it that shows least; what shows best first.
+std::vector<gap::LeastVisible> least_visible(const LayoutEvidence& evidence) {
+  std::vector<gap::LeastVisible> all;
+  const auto strength = [](const gap::LeastVisible& one) {
+    return one.value ? *one.value / one.typical : std::numeric_limits<double>::infinity();
+  };
+  for (std::size_t cause = 0; cause < evidence.library.causes.size(); ++cause) {
+    const Cause& of = evidence.library.causes[cause];
+    std::optional<gap::LeastVisible> least;
+    for (const CauseParameter& parameter : of.parameters) {
+      if (parameter.is_switch()) continue;  // a dead actuator is a weak one
+      gap::LeastVisible one{of.name, of.of, parameter.name, least_visible_size(evidence, cause, parameter),
+                            parameter.typical};
+      if (!least || strength(one) > strength(*least)) least = std::move(one);
+    }
+    if (least) all.push_back(std::move(*least));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const auto& a, const auto& b) { return strength(a) < strength(b); });
+  return all;
+}
+
+/// The first of them in a sentence, and how many no size of which would have stood out.
+std::string words_of(std::span<const gap::LeastVisible> least) {
+  constexpr std::size_t kMost = 6;
+  std::vector<std::string> shown;
+  std::size_t hidden = 0;
+  for (const gap::LeastVisible& one : least) {
+    if (!one.value) ++hidden;
+    if (one.value && shown.size() < kMost)
+      shown.push_back(fmt::format("{} from {} {:.2g} on", one.words(), one.parameter, *one.value));
+  }
+  if (shown.empty()) return "No effect of the library would have stood out, however large.";
+  return fmt::format("Would have stood out: {}. Of {} of {} effects no size would have.", fmt::join(shown, ", "),
+                     hidden, least.size());
+}
+
 }  // namespace
 
 std::vector<gap::WhereEntry> louder_channels(const RecordingPower& of, std::span<const RecordingPower> nominal) {
@@ -250,7 +315,11 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     const bool is_faint = gain_nats >= kFaint_nats;
     const std::string but = is_faint ? " but for a faint lead of " + library.causes[best.causes[0]].words() : "";
     answer.sentence = "No effect stands out; without nominal recordings (--nominal) a gap cannot be ruled out.";
-    if (has_floor) answer.sentence = fmt::format("Nothing exceeds what nominal recordings show{}.", but);
+    if (has_floor) {
+      answer.sentence = fmt::format("Nothing exceeds what nominal recordings show{}.", but);
+      answer.least_visible = least_visible(evidence);
+      answer.remarks.push_back(words_of(answer.least_visible));
+    }
     return;
   }
   if (best.causes.empty()) return say_unknown(gap::UnknownKind::outside, {}, louder, answer);

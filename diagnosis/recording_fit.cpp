@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <stdexcept>
 
 #include "diagnosis/limits.h"
 
@@ -78,12 +79,22 @@ std::optional<identify::FilterPass> FittedRecording::follow(const Eigen::VectorX
   return filter_.follow(values_at(at));
 }
 
+void FittedRecording::hold_gains(const Eigen::VectorXd& at) {
+  held_ = follow(at);
+  if (!held_) throw std::invalid_argument("the layout cannot follow the recording: is it this vehicle's?");
+}
+
 std::optional<RecordingFit> FittedRecording::fit(const Eigen::VectorXd& at) const {
-  const auto pass = follow(at);
-  if (!pass) return std::nullopt;
-  const identify::FilterLinearised here = filter_.linearise(*pass, columns_);
-  const Eigen::VectorXd inside = pass->values - filter_.start();
-  const Likelihood linear{here.information(), here.score(), -(here.power + here.log_det) / 2};
+  const Eigen::VectorXd values = values_at(at);
+  const auto here = [&]() -> std::optional<identify::FilterLinearised> {
+    if (held_) return filter_.linearise(*held_, values, columns_);
+    const auto pass = filter_.follow(values);
+    if (!pass) return std::nullopt;
+    return filter_.linearise(*pass, columns_);
+  }();
+  if (!here) return std::nullopt;
+  const Eigen::VectorXd inside = values - filter_.start();
+  const Likelihood linear{here->information(), here->score(), -(here->power + here->log_det) / 2};
   return RecordingFit{linear.about(-inside), inside};
 }
 

@@ -71,6 +71,10 @@ class FittedRecording {
                   const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
                   unsigned threads);
 
+  /// From here on fits have the gains and variances of the filter with these departures. Only then do they
+  /// compare: a filter that expects other errors is more or less probable for that alone, whatever caused the
+  /// readings. Throws std::invalid_argument where the layout cannot follow the recording so.
+  void hold_gains(const Eigen::VectorXd& at);
   /// nullopt: a vehicle with these departures could not have moved so. Departures beyond a bound are at the bound.
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const;
   [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const;
@@ -84,6 +88,7 @@ class FittedRecording {
   const CauseLibrary& library_;
   identify::FilteredReplay filter_;
   std::vector<identify::FilterColumn> columns_;
+  std::optional<identify::FilterPass> held_;
 };
 
 }  // namespace navcal::diagnosis

@@ -184,6 +184,14 @@ OrderedJson json_of(const gap::EffectDifference& difference) {
   return {{"name", difference.name}, {"p_value", difference.p_value}, {"differs", difference.differs}};
 }
 
+OrderedJson json_of(const gap::LeastVisible& least) {
+  return {{"name", least.name},
+          {"of", least.of},
+          {"parameter", least.parameter},
+          {"value", least.value ? OrderedJson(*least.value) : OrderedJson()},
+          {"typical", least.typical}};
+}
+
 }  // namespace
 
 std::string gap_json(const gap::Diagnosis& diagnosis) {
@@ -215,6 +223,7 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
     json["kind"] = gap::name_of(diagnosis.kind);
     json["alternatives"] = list_of(diagnosis.alternatives, convert);
   }
+  if (!diagnosis.least_visible.empty()) json["least_visible"] = list_of(diagnosis.least_visible, convert);
   if (!diagnosis.recordings.empty()) {
     json["recordings"] = list_of(diagnosis.recordings, convert);
     json["differences"] = list_of(diagnosis.differences, convert);

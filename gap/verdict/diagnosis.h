@@ -195,6 +195,15 @@ struct EffectDifference {
   bool differs = false;
 };
 
+/// Smallest size of an effect that would have stood out.
+struct LeastVisible {
+  std::string name, of, parameter;  ///< of its parameters the one that shows least
+  std::optional<double> value;      ///< its size, in the parameter's unit; empty: no size would
+  double typical = 1;
+
+  [[nodiscard]] std::string words() const { return of.empty() ? name : name + " of " + of; }
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::unknown;
   UnknownKind kind = UnknownKind::cannot_say;  ///< of the verdict unknown
@@ -226,8 +235,9 @@ struct Diagnosis {
   std::vector<RecordingFinding> recordings;   ///< of several that were diagnosed together; else empty
   std::vector<EffectDifference> differences;  ///< among them
   BankFacts bank;
-  double duration_s = 0;  ///< of the missions together
-  double seconds = 0;     ///< computing time of the diagnosis, without the bank
+  double duration_s = 0;                    ///< of the missions together
+  double seconds = 0;                       ///< computing time of the diagnosis, without the bank
+  std::vector<LeastVisible> least_visible;  ///< of the causes of a layout, where the verdict is no gap
 };
 
 }  // namespace navcal::gap

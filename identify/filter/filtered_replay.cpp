@@ -314,16 +314,25 @@ Eigen::VectorXd FilteredReplay::replayed(const FilterPass& pass, const FilterMod
   return white;
 }
 
-FilterLinearised FilteredReplay::linearise(const FilterPass& pass, std::span<const FilterColumn> columns) const {
-  FilterLinearised out{{}, pass.white(), pass.power(), pass.log_det()};
+std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& values,
+                                                          std::span<const FilterColumn> columns) const {
+  Eigen::VectorXd white = replayed(pass, values);
+  if (white.size() == 0) return std::nullopt;
+  return linearise(pass, values, std::move(white), columns);
+}
+
+FilterLinearised FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& at_values,
+                                           Eigen::VectorXd white, std::span<const FilterColumn> columns) const {
+  FilterLinearised out{{}, std::move(white), 0, pass.log_det()};
+  out.power = out.white.squaredNorm();
   out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
-  const Driven nominal = driven_by(pass.values);
+  const Driven nominal = driven_by(at_values);
   const auto parameters = std::ssize(parameters_);
   const Calibration stds = nuisance_stds(recorded_);
   base::in_parallel(threads_, columns.size(), [&](std::size_t c) {
     const Eigen::Index at = columns[c].value;
     double step = columns[c].step;
-    Eigen::VectorXd values = pass.values;
+    Eigen::VectorXd values = at_values;
     const Parameter* parameter = at < parameters ? &parameters_[static_cast<std::size_t>(at)] : nullptr;
     if (parameter == nullptr && !matters(static_cast<Nuisance>(at - parameters))) return;
     if (step == 0 && parameter != nullptr) {
@@ -343,8 +352,8 @@ FilterLinearised FilteredReplay::linearise(const FilterPass& pass, std::span<con
                moves_actuators(*parameter) ? std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))
                                            : nominal.actuators};
     }
-    const Eigen::VectorXd white = replayed(pass, model_of(moved ? *moved : nominal, values));
-    if (white.size() > 0) out.jacobian.col(static_cast<Eigen::Index>(c)) = (white - out.white) / step;
+    const Eigen::VectorXd there = replayed(pass, model_of(moved ? *moved : nominal, values));
+    if (there.size() > 0) out.jacobian.col(static_cast<Eigen::Index>(c)) = (there - out.white) / step;
   });
   return out;
 }

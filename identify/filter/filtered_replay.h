@@ -90,7 +90,12 @@ class FilteredReplay {
   [[nodiscard]] Eigen::VectorXd replayed(const FilterPass& pass, const Eigen::VectorXd& values) const;
   /// The same of a pass's own values, with one replay for each column. A column whose replay leaves all bounds is
   /// zero: the recording says nothing of it here.
-  [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, std::span<const FilterColumn> columns) const;
+  [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, std::span<const FilterColumn> columns) const {
+    return linearise(pass, pass.values, pass.white(), columns);
+  }
+  /// Of other values with the gains of the pass. nullopt: with them the vehicle leaves all bounds.
+  [[nodiscard]] std::optional<FilterLinearised> linearise(const FilterPass& pass, const Eigen::VectorXd& values,
+                                                          std::span<const FilterColumn> columns) const;
 
   /// The innovations of a pass under other noises, its derivatives held: no call of the model. `out` has the
   /// readings' variances and white innovations; its other members stay as they are.
@@ -135,6 +140,8 @@ class FilteredReplay {
   /// Places where the filter left all bounds, the filter starting anew behind each; at most `most`.
   [[nodiscard]] std::vector<double> run(const Eigen::VectorXd& values, FilterPass& pass, std::size_t most) const;
   [[nodiscard]] Eigen::VectorXd replayed(const FilterPass& pass, const FilterModel& model) const;
+  [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, const Eigen::VectorXd& values,
+                                           Eigen::VectorXd white, std::span<const FilterColumn> columns) const;
 
   config::Layout layout_;
   std::vector<Parameter> parameters_;

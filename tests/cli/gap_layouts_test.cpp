@@ -45,6 +45,21 @@ TEST_F(GapLayouts, RecordingsAreDecodedWithoutABadByteAndScored) {
   EXPECT_EQ(nlohmann::json::parse(said("out")).at("cases"), 2);
 }
 
+// Three recordings of the same vehicle, as somebody makes them who tries the diagnosis for the first time.
+TEST_F(GapLayouts, ANominalVehicleHasNoGap) {
+  const std::string vehicle = " --vehicle '" NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml' ";
+  for (const char* const seed : {"1", "2", "3"})
+    ASSERT_EQ(
+        run_navcal("simulate" + vehicle + "--mission survey --seconds 60 --seed " + seed + " -o " + seed + ".cap"),
+        0)
+        << said("err");
+  ASSERT_EQ(run_navcal("gap" + vehicle + "--nominal 1.cap --nominal 2.cap 3.cap --json -"), 0) << said("err");
+  const auto answer = nlohmann::json::parse(said("out"));
+  EXPECT_EQ(answer.at("verdict"), "no-gap") << answer.at("sentence");
+  EXPECT_TRUE(answer.at("effects").empty());
+  EXPECT_FALSE(answer.at("least_visible").empty());
+}
+
 TEST_F(GapLayouts, TheSameSeedGivesTheSameFiles) {
   ASSERT_EQ(run_navcal(kRecord), 0) << said("err");
   const std::string first = said("recordings/0002-b.cap"), truth = said("truth.jsonl");

@@ -64,6 +64,30 @@ TEST(LayoutVerdict, NamesACauseThatIsClearAndDescribesTheRecording) {
   EXPECT_TRUE(answer.effects[0].confused_with.empty());
 }
 
+TEST(LayoutVerdict, NoGapSaysWhatWouldHaveStoodOut) {
+  Searched searched;
+  searched.found.sets = {{{}, 0, 0.99}, {{0}, -6, 0.01}};
+  searched.found.changes.information = Eigen::Vector2d(1e4, 1e-4).asDiagonal();
+  searched.found.changes.score.setZero();
+  const gap::Diagnosis answer = searched.verdict();
+  ASSERT_EQ(answer.least_visible.size(), 2U);
+  const gap::LeastVisible& first = answer.least_visible[0];
+  EXPECT_EQ(first.words(), "first of thruster.1");
+  ASSERT_TRUE(first.value);
+  // Half the square of value over error pays for the threshold and the penalties of a cause.
+  const double nats = *first.value * *first.value * 1e4 / 2;
+  EXPECT_GT(nats, kGap_nats);
+  EXPECT_LT(nats, 3 * kGap_nats);
+  EXPECT_EQ(answer.least_visible[1].name, "second");
+  EXPECT_FALSE(answer.least_visible[1].value);
+  EXPECT_NE(answer.remarks.back().find("first of thruster.1 from k 0.0"), std::string::npos)
+      << answer.remarks.back();
+  EXPECT_NE(answer.remarks.back().find("Of 1 of 2 effects no size"), std::string::npos) << answer.remarks.back();
+  // Where nominal recordings have more for it by chance, it takes more to stand out.
+  searched.bank.chance_nats[0] = 30;
+  EXPECT_GT(*searched.verdict().least_visible[0].value, 1.5 * *first.value);
+}
+
 TEST(LayoutVerdict, WithoutACauseAndALouderChannelThereIsNoGap) {
   Searched searched;
   searched.found.sets = {{{}, 0, 0.99}, {{0}, -6, 0.01}};
