@@ -45,7 +45,7 @@ class CalibrateRun {
   [[nodiscard]] double duration_s() const { return static_cast<double>(duration_ns_) * 1e-9; }
   /// Irregularities, each with its file.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
-  /// An import says that an autopilot's own calibration is still in the fields.
+  /// An autopilot's own calibration is still in the fields: an import says so, or a live log shows it.
   [[nodiscard]] bool has_corrected_fields() const { return has_corrected_fields_; }
   /// The port whose field serves; empty: none.
   [[nodiscard]] std::string field_port() const;
@@ -55,6 +55,7 @@ class CalibrateRun {
   void take(const std::string& file, const record::Entry& entry, const record::PortMatch& ports);
   void at(const std::string& file, std::int64_t time_ns);
   void begin_ordered();
+  void tell_corrected_fields(const std::string& file);
 
   config::Settings settings_;
   CalibrateHistory* history_;

@@ -35,6 +35,7 @@ class MavlinkVehicle final : public Instrument {
     }
     return message.system != decoder_.vehicle().value_or(message.system) ? Verdict::foreign : verdict;
   }
+  [[nodiscard]] bool has_corrected_fields() const override { return decoder_.has_corrected_fields(unit_); }
 
  private:
   [[nodiscard]] bool is_wanted(const MavlinkReading& reading) const {
