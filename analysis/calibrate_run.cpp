@@ -106,6 +106,7 @@ void CalibrateRun::take(const std::string& file, const record::Entry& entry, con
     if (starts && calib::row_of(*order->calibrator).by_order)
       pipeline_->order_calibration(pipeline::CalibrationOrder::start, *order->calibrator, newest_ns_, sink_);
   } else if (const auto* event = std::get_if<record::LoggedEvent>(&entry)) {
+    is_of_px4_ = is_of_px4_ || event->json.find("(ulog)") != std::string::npos;
     if (event->json.find(kCorrectedFields) != std::string::npos) tell_corrected_fields(file);
   }
 }

@@ -47,6 +47,8 @@ class CalibrateRun {
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   /// An autopilot's own calibration is still in the fields: an import says so, or a live log shows it.
   [[nodiscard]] bool has_corrected_fields() const { return has_corrected_fields_; }
+  /// One of the recordings was imported from a log of PX4.
+  [[nodiscard]] bool is_of_px4() const { return is_of_px4_; }
   /// The port whose field serves; empty: none.
   [[nodiscard]] std::string field_port() const;
 
@@ -66,7 +68,7 @@ class CalibrateRun {
   std::int64_t duration_ns_ = 0;
   std::vector<std::string> remarks_;
   record::SeenRecordings seen_;
-  bool has_corrected_fields_ = false;
+  bool has_corrected_fields_ = false, is_of_px4_ = false;
 };
 
 }  // namespace navcal::analysis
