@@ -84,8 +84,7 @@ namespace {
 
 namespace mavlink = protocols::mavlink;
 
-constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kReadParameter = 20,
-                        kParameter = 22;
+constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kParameter = 22;
 constexpr std::uint16_t kSetMessageInterval = 511;
 constexpr std::uint8_t kOurComponent = 197;
 constexpr int kHeartbeatsOfRound = 30;  // heartbeats; then a ground station may have asked for other rates
@@ -188,12 +187,7 @@ class StartUpMavlink final : public StartUp {
   }
 
   std::vector<std::uint8_t> reading(const std::string& parameter) {
-    std::array<std::uint8_t, 20> payload{};
-    protocols::put_le(payload.data(), std::int16_t{-1});  // by its name
-    payload[2] = *vehicle_;
-    payload[3] = mavlink::kAutopilot;
-    std::copy_n(parameter.begin(), std::min<std::size_t>(parameter.size(), 16), payload.begin() + 4);
-    return mavlink::encode(kReadParameter, {*vehicle_, kOurComponent, sequence_++}, payload);
+    return mavlink::encode_reading({*vehicle_, kOurComponent, sequence_++}, *vehicle_, parameter);
   }
 
   static constexpr int kNoAnswer = -1;
