@@ -53,6 +53,9 @@ void CalibrateRun::play(const std::string& file, const record::Progress& progres
     progress(recording->progress());
   }
   pipeline_->advance(newest_ns_, sink_);
+  for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
+    if (pipeline_->statistics(port).has_corrected_fields) tell_corrected_fields(file);
+  }
   for (const auto& remark : recording->remarks()) remarks_.push_back(fmt::format("{}: {}", file, remark));
 }
 
@@ -103,10 +106,14 @@ void CalibrateRun::take(const std::string& file, const record::Entry& entry, con
     if (starts && calib::row_of(*order->calibrator).by_order)
       pipeline_->order_calibration(pipeline::CalibrationOrder::start, *order->calibrator, newest_ns_, sink_);
   } else if (const auto* event = std::get_if<record::LoggedEvent>(&entry)) {
-    if (has_corrected_fields_ || event->json.find(kCorrectedFields) == std::string::npos) return;
-    has_corrected_fields_ = true;
-    remarks_.push_back(fmt::format("{}: {}", file, kCorrectedFields));
+    is_of_px4_ = is_of_px4_ || event->json.find("(ulog)") != std::string::npos;
+    if (event->json.find(kCorrectedFields) != std::string::npos) tell_corrected_fields(file);
   }
+}
+
+void CalibrateRun::tell_corrected_fields(const std::string& file) {
+  if (!has_corrected_fields_) remarks_.push_back(fmt::format("{}: {}", file, kCorrectedFields));
+  has_corrected_fields_ = true;
 }
 
 std::string CalibrateRun::field_port() const {

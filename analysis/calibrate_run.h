@@ -45,8 +45,10 @@ class CalibrateRun {
   [[nodiscard]] double duration_s() const { return static_cast<double>(duration_ns_) * 1e-9; }
   /// Irregularities, each with its file.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
-  /// An import says that an autopilot's own calibration is still in the fields.
+  /// An autopilot's own calibration is still in the fields: an import says so, or a live log shows it.
   [[nodiscard]] bool has_corrected_fields() const { return has_corrected_fields_; }
+  /// One of the recordings was imported from a log of PX4.
+  [[nodiscard]] bool is_of_px4() const { return is_of_px4_; }
   /// The port whose field serves; empty: none.
   [[nodiscard]] std::string field_port() const;
 
@@ -55,6 +57,7 @@ class CalibrateRun {
   void take(const std::string& file, const record::Entry& entry, const record::PortMatch& ports);
   void at(const std::string& file, std::int64_t time_ns);
   void begin_ordered();
+  void tell_corrected_fields(const std::string& file);
 
   config::Settings settings_;
   CalibrateHistory* history_;
@@ -65,7 +68,7 @@ class CalibrateRun {
   std::int64_t duration_ns_ = 0;
   std::vector<std::string> remarks_;
   record::SeenRecordings seen_;
-  bool has_corrected_fields_ = false;
+  bool has_corrected_fields_ = false, is_of_px4_ = false;
 };
 
 }  // namespace navcal::analysis

@@ -46,7 +46,9 @@ void write_parameters(const std::string& file, const calib::Report& report, cons
   if (run.has_corrected_fields())
     refuse("the autopilot's own calibration is still in the fields, and its parameters replace that one");
   try {
-    write_result(file, report::autopilot_parameters(report, compass_unit(run.settings(), run.field_port())));
+    const bool is_px4 = run.is_of_px4() || file.ends_with(".params");
+    write_result(file,
+                 report::autopilot_parameters(report, compass_unit(run.settings(), run.field_port()), is_px4));
   } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }
@@ -103,7 +105,8 @@ void add_calibrate(CLI::App& app) {
              "page to write, with pictures; needs no other file");
   add_valued(
       command, "--parameters", "FILE.param", options->parameters,
-      "parameters of ArduPilot (COMPASS_OFS_X ...) to write: its compass then corrects as this calibration");
+      "parameters of ArduPilot (COMPASS_OFS_X ...) to write: its compass then corrects as this calibration. Of a "
+      "PX4, or as FILE.params, CAL_MAG0_XOFF ... in QGroundControl's format");
   command->footer("Example: navcal calibrate --report dive.html dive.mcap");
   command->callback([options] { calibrate(*options); });
 }

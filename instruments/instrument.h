@@ -63,6 +63,8 @@ class Instrument {
 
   virtual ~Instrument() = default;
   virtual Verdict read(const protocols::Frame& frame, Receiver& receiver) = 0;
+  /// Fields were handed over as an autopilot has corrected them.
+  [[nodiscard]] virtual bool has_corrected_fields() const { return false; }
 };
 
 using Verdict = Instrument::Verdict;

@@ -176,10 +176,6 @@ std::optional<Vector3> MavlinkDecoder::measured_uT(int instance, const Vector3& 
   return sent_uT;
 }
 
-bool MavlinkDecoder::has_corrected_fields() const {
-  return std::ranges::any_of(units_, [](const Unit& unit) { return unit.is_corrected; });
-}
-
 void MavlinkDecoder::take_pressure(double hPa, double temperature_C, int instance) {
   if (!std::isfinite(hPa) || !std::isfinite(temperature_C)) return;
   if (hPa == 0) return put(ScalarSample{Text<24>("temperature"), Text<16>("degC"), temperature_C, {}});

@@ -43,8 +43,10 @@ class MavlinkDecoder {
   /// Samples of a message; none where it is of no use. Valid until the next call.
   [[nodiscard]] std::span<const MavlinkReading> read(const protocols::mavlink::Message& message);
   [[nodiscard]] std::optional<std::uint8_t> vehicle() const { return vehicle_; }
-  /// True when fields were handed over as the autopilot has corrected them.
-  [[nodiscard]] bool has_corrected_fields() const;
+  /// True when fields of a compass (0: the first) were handed over as the autopilot has corrected them.
+  [[nodiscard]] bool has_corrected_fields(int instance) const {
+    return units_.at(static_cast<std::size_t>(instance)).is_corrected;
+  }
 
  private:
   using Payload = protocols::mavlink::Payload;

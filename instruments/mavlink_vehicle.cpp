@@ -35,6 +35,7 @@ class MavlinkVehicle final : public Instrument {
     }
     return message.system != decoder_.vehicle().value_or(message.system) ? Verdict::foreign : verdict;
   }
+  [[nodiscard]] bool has_corrected_fields() const override { return decoder_.has_corrected_fields(unit_); }
 
  private:
   [[nodiscard]] bool is_wanted(const MavlinkReading& reading) const {
@@ -83,8 +84,7 @@ namespace {
 
 namespace mavlink = protocols::mavlink;
 
-constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kReadParameter = 20,
-                        kParameter = 22;
+constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kParameter = 22;
 constexpr std::uint16_t kSetMessageInterval = 511;
 constexpr std::uint8_t kOurComponent = 197;
 constexpr int kHeartbeatsOfRound = 30;  // heartbeats; then a ground station may have asked for other rates
@@ -187,12 +187,7 @@ class StartUpMavlink final : public StartUp {
   }
 
   std::vector<std::uint8_t> reading(const std::string& parameter) {
-    std::array<std::uint8_t, 20> payload{};
-    protocols::put_le(payload.data(), std::int16_t{-1});  // by its name
-    payload[2] = *vehicle_;
-    payload[3] = mavlink::kAutopilot;
-    std::copy_n(parameter.begin(), std::min<std::size_t>(parameter.size(), 16), payload.begin() + 4);
-    return mavlink::encode(kReadParameter, {*vehicle_, kOurComponent, sequence_++}, payload);
+    return mavlink::encode_reading({*vehicle_, kOurComponent, sequence_++}, *vehicle_, parameter);
   }
 
   static constexpr int kNoAnswer = -1;

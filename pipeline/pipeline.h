@@ -86,12 +86,13 @@ struct PortStatistics {
   std::uint64_t held_bytes = 0;  ///< waiting in the parser
   std::uint64_t samples = 0;
   UnusedFrames unused;
-  std::uint64_t out_of_range = 0;  ///< intact frames whose content cannot be (dates, angles)
-  std::uint64_t silences = 0;      ///< incomplete frames given up
-  std::uint64_t lost = 0;          ///< frames missing by sequence number or by the device's clock
-  std::uint64_t repeated = 0;      ///< frames received twice
-  std::int64_t last_frame_ns = 0;  ///< arrival of the newest intact frame, monotonic; 0: none yet
-  instruments::ClockState clock;   ///< the device's own clock
+  std::uint64_t out_of_range = 0;     ///< intact frames whose content cannot be (dates, angles)
+  std::uint64_t silences = 0;         ///< incomplete frames given up
+  std::uint64_t lost = 0;             ///< frames missing by sequence number or by the device's clock
+  std::uint64_t repeated = 0;         ///< frames received twice
+  std::int64_t last_frame_ns = 0;     ///< arrival of the newest intact frame, monotonic; 0: none yet
+  instruments::ClockState clock;      ///< the device's own clock
+  bool has_corrected_fields = false;  ///< an autopilot's own calibration was not taken off its compass
 };
 
 /// (port, arrival, bytes) -> stamped and calibrated samples. The same object live and in replay: no I/O, no clock,

@@ -182,6 +182,7 @@ PortStatistics PortStream::statistics() const {
   statistics.lost = clock_.lost();
   statistics.repeated = clock_.repeated();
   statistics.clock = clock_.state();
+  statistics.has_corrected_fields = instrument_->has_corrected_fields();
   return statistics;
 }
 

@@ -129,4 +129,32 @@ std::vector<std::uint8_t> encode(std::uint32_t id, Sender sender, Bytes payload)
   return frame;
 }
 
+Parameter parameter_of(const Message& parameter_value, bool is_bytewise) {
+  const Payload payload(parameter_value.payload);
+  Parameter parameter{payload.text(8, 16), payload.at<std::uint8_t>(24), payload.at<float>(0)};
+  if (is_bytewise && parameter.type == Parameter::kInt32) parameter.value = payload.at<std::int32_t>(0);
+  return parameter;
+}
+
+std::vector<std::uint8_t> encode_setting(Sender sender, std::uint8_t vehicle, const Parameter& parameter,
+                                         bool is_bytewise) {
+  std::vector<std::uint8_t> payload;
+  if (is_bytewise && parameter.type == Parameter::kInt32)
+    append_le(payload, saturated<std::int32_t>(parameter.value));
+  else
+    append_le(payload, static_cast<float>(parameter.value));
+  payload.insert(payload.end(), {vehicle, kAutopilot});
+  payload.insert(payload.end(), parameter.name.begin(), parameter.name.end());
+  payload.resize(22);
+  payload.push_back(parameter.type);
+  return encode(23, sender, payload);
+}
+
+std::vector<std::uint8_t> encode_reading(Sender sender, std::uint8_t vehicle, std::string_view name) {
+  std::vector<std::uint8_t> payload{0xFF, 0xFF, vehicle, kAutopilot};  // -1: by its name
+  payload.insert(payload.end(), name.begin(), name.end());
+  payload.resize(20);
+  return encode(20, sender, payload);
+}
+
 }  // namespace navcal::protocols::mavlink

@@ -85,4 +85,17 @@ struct Sender {
 /// A frame of version 2 without a signature. `id` must be known.
 [[nodiscard]] std::vector<std::uint8_t> encode(std::uint32_t id, Sender sender, Bytes payload);
 
+/// A parameter of an autopilot. PX4 sends an integer as its four bytes (`is_bytewise`), ArduPilot as a float.
+struct Parameter {
+  static constexpr std::uint8_t kInt32 = 6, kFloat = 9;
+  std::string name;  ///< at most 16 characters
+  std::uint8_t type = kFloat;
+  double value = 0;
+};
+[[nodiscard]] Parameter parameter_of(const Message& parameter_value, bool is_bytewise);
+/// PARAM_SET and, by the name, PARAM_REQUEST_READ for the autopilot of system `vehicle`.
+[[nodiscard]] std::vector<std::uint8_t> encode_setting(Sender sender, std::uint8_t vehicle,
+                                                       const Parameter& parameter, bool is_bytewise);
+[[nodiscard]] std::vector<std::uint8_t> encode_reading(Sender sender, std::uint8_t vehicle, std::string_view name);
+
 }  // namespace navcal::protocols::mavlink

@@ -35,9 +35,9 @@ ImportFindings read_with_channels(std::string_view file, const ImportOptions& op
       return Read(file, sink, channels);
   }();
   if (findings.has_corrected_fields)
-    findings.remarks.push_back(std::string(kCorrectedFields) + (kUndoes && !options.keeps_calibration
-                                                                    ? ": the log lacks its COMPASS_ parameters"
-                                                                    : ""));
+    findings.remarks.push_back(
+        std::string(kCorrectedFields) +
+        (kUndoes && !options.keeps_calibration ? ": its parameters do not undo that (docs/import.md)" : ""));
   channels.expect_all_found();
   for (std::string& remark : channels.remarks()) findings.remarks.push_back(std::move(remark));
   return findings;

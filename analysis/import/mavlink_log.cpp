@@ -130,7 +130,8 @@ ImportFindings MavlinkFile::read() {
   if (untrimmed_ > 0)
     findings_.remarks.push_back(fmt::format(
         "{} frames had the checksum of before their zeros were cut (BlueOS), and were taken", untrimmed_));
-  findings_.has_corrected_fields = decoder_.has_corrected_fields();
+  for (int unit = 0; unit < instruments::AutopilotCompass::kUnits; ++unit)
+    findings_.has_corrected_fields |= decoder_.has_corrected_fields(unit);
   if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
   return std::move(findings_);
 }

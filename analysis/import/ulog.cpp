@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -48,13 +49,6 @@ void take_combined(const UlogMessage& message, const ImportedSample& sample, Imp
   LineWriter line("IMU");
   line.vector("rate_rad_s", message.vector("gyro_rad"));
   line.vector("specific_force_m_s2", message.vector("accelerometer_m_s2"));
-  sink.sample(sample, line);
-}
-
-void take_magnetometer(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
-  constexpr double kMicroteslaPerGauss = 100;
-  LineWriter line("COMPASS");
-  line.vector("field_body_uT", message.vector("magnetometer_ga", kMicroteslaPerGauss));
   sink.sample(sample, line);
 }
 
@@ -155,7 +149,7 @@ std::optional<double> member_of(const UlogMessage& message, std::string_view mem
 struct UlogTarget {
   std::string_view message;
   PortKind kind;
-  void (*take)(const UlogMessage&, ImportedSample, ImportSink&);
+  void (*take)(const UlogMessage&, ImportedSample, ImportSink&);  ///< null: UlogFile::take_field
 };
 
 template <void (*Take)(const UlogMessage&, const ImportedSample&, ImportSink&)>
@@ -163,19 +157,18 @@ void taken_by(const UlogMessage& message, ImportedSample sample, ImportSink& sin
   Take(message, sample, sink);
 }
 
-constexpr std::array kUlogTargets{
-    UlogTarget{"sensor_combined", PortKind::imu, taken_by<take_combined>},
-    UlogTarget{"vehicle_magnetometer", PortKind::compass, taken_by<take_magnetometer>},
-    UlogTarget{"vehicle_air_data", PortKind::baro, taken_by<take_air>},
-    UlogTarget{"vehicle_gps_position", PortKind::gps, take_receiver},
-    UlogTarget{"sensor_gps", PortKind::gps, take_receiver},
-    UlogTarget{"vehicle_attitude", PortKind::attitude, taken_by<take_attitude>},
-    UlogTarget{"battery_status", PortKind::battery, taken_by<take_battery>}};
+constexpr std::array kUlogTargets{UlogTarget{"sensor_combined", PortKind::imu, taken_by<take_combined>},
+                                  UlogTarget{"vehicle_magnetometer", PortKind::compass, nullptr},
+                                  UlogTarget{"vehicle_air_data", PortKind::baro, taken_by<take_air>},
+                                  UlogTarget{"vehicle_gps_position", PortKind::gps, take_receiver},
+                                  UlogTarget{"sensor_gps", PortKind::gps, take_receiver},
+                                  UlogTarget{"vehicle_attitude", PortKind::attitude, taken_by<take_attitude>},
+                                  UlogTarget{"battery_status", PortKind::battery, taken_by<take_battery>}};
 
 class UlogFile {
  public:
-  UlogFile(std::string_view file, ImportSink& sink, MotorChannels& channels)
-      : file_(file), sink_(sink), channels_(channels) {}
+  UlogFile(std::string_view file, ImportSink& sink, MotorChannels& channels, bool undoes_calibration)
+      : file_(file), sink_(sink), channels_(channels), undoes_calibration_(undoes_calibration) {}
   ImportFindings read();
 
  private:
@@ -193,6 +186,7 @@ class UlogFile {
   void subscribe(std::string_view content);
   void take_data(std::string_view content);
   void take_parameter(std::string_view content);
+  void take_field(const UlogMessage& message, const ImportedSample& sample, int instance);
 
   std::string_view file_;
   ImportSink& sink_;
@@ -203,6 +197,8 @@ class UlogFile {
   std::map<std::uint16_t, Subscription> subscriptions_;
   std::string_view receiver_;  ///< the message that gives the position; the other one repeats it
   std::uint64_t dropouts_ = 0, dropped_ms_ = 0;
+  bool undoes_calibration_;
+  std::map<std::string, double> parameters_;
 };
 
 ImportFindings UlogFile::read() {
@@ -248,9 +244,40 @@ void UlogFile::take_parameter(std::string_view content) {
   if (content.size() < 1 + length + sizeof(float)) return;
   const std::string_view key = content.substr(1, length), value = content.substr(1 + length);
   constexpr std::string_view kFloat = "float ", kInteger = "int32_t ";
-  if (key.starts_with(kFloat)) servos_.take(key.substr(kFloat.size()), little_endian_at<float>(value, 0));
-  if (key.starts_with(kInteger))
-    servos_.take(key.substr(kInteger.size()), little_endian_at<std::int32_t>(value, 0));
+  const auto keep = [this](std::string_view name, double number) {
+    servos_.take(name, number);
+    parameters_.insert_or_assign(std::string(name), number);
+  };
+  if (key.starts_with(kFloat)) keep(key.substr(kFloat.size()), little_endian_at<float>(value, 0));
+  if (key.starts_with(kInteger)) keep(key.substr(kInteger.size()), little_endian_at<std::int32_t>(value, 0));
+}
+
+/// The autopilot's calibration is undone where it is known to be that of this compass, turns no axes, and takes no
+/// motor's field off: field = D (measured - OFF).
+void UlogFile::take_field(const UlogMessage& message, const ImportedSample& sample, int instance) {
+  constexpr double kMicroteslaPerGauss = 100, kLeastDeterminant = 1e-3;
+  const auto parameter = [&](const std::string& name) {
+    const auto found = parameters_.find(name);
+    return found == parameters_.end() ? 0 : found->second;
+  };
+  const auto of = [&](const char* name) { return parameter(fmt::format("CAL_MAG{}_{}", instance, name)); };
+  Eigen::Matrix3d d;
+  d << of("XSCALE"), of("XODIAG"), of("YODIAG"),  //
+      of("XODIAG"), of("YSCALE"), of("ZODIAG"),   //
+      of("YODIAG"), of("ZODIAG"), of("ZSCALE");
+  const bool is_turned = of("ROT") > 0 || parameter("SENS_BOARD_ROT") > 0 || parameter("SENS_BOARD_X_OFF") != 0 ||
+                         parameter("SENS_BOARD_Y_OFF") != 0 || parameter("SENS_BOARD_Z_OFF") != 0;
+  auto field_uT = message.vector("magnetometer_ga", kMicroteslaPerGauss);
+  if (undoes_calibration_ && message.number("device_id") == of("ID") && !is_turned &&
+      parameter("CAL_MAG_COMP_TYP") == 0 && std::abs(d.determinant()) > kLeastDeterminant) {
+    Eigen::Map<Eigen::Vector3d> field(field_uT.data());
+    field = d.inverse() * field + kMicroteslaPerGauss * Eigen::Vector3d(of("XOFF"), of("YOFF"), of("ZOFF"));
+  } else {
+    findings_.has_corrected_fields = true;
+  }
+  LineWriter line("COMPASS");
+  line.vector("field_body_uT", field_uT);
+  sink_.sample(sample, line);
 }
 
 void UlogFile::subscribe(std::string_view content) {
@@ -299,7 +326,7 @@ void UlogFile::take_data(std::string_view content) {
     if (receiver_ != subscription.target->message)
       return sink_.left(fmt::format("{} (the same as {})", subscription.label, receiver_));
   }
-  if (kind == PortKind::compass) findings_.has_corrected_fields = true;
+  if (subscription.target->take == nullptr) return take_field(message, sample, subscription.instance);
   subscription.target->take(message, sample, sink_);
 }
 
@@ -307,8 +334,9 @@ void UlogFile::take_data(std::string_view content) {
 
 bool is_ulog(std::string_view head) { return head.size() >= kUlogHeader && head.starts_with(kUlogMagic); }
 
-ImportFindings read_ulog(std::string_view file, ImportSink& sink, MotorChannels& channels) {
-  return UlogFile(file, sink, channels).read();
+ImportFindings read_ulog(std::string_view file, ImportSink& sink, MotorChannels& channels,
+                         bool undoes_calibration) {
+  return UlogFile(file, sink, channels, undoes_calibration).read();
 }
 
 }  // namespace navcal::analysis

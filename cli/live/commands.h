@@ -68,6 +68,7 @@ void add_gap_trial(CLI::App& gap);
 void add_fleet_submit(CLI::App& fleet);
 /// `fleet trial record` and `fleet trial score`.
 void add_fleet_trial(CLI::App& parent);
+void add_ports_send_calibration(CLI::App& ports);
 /// Stands for a command whose source is not linked, and says how to get it.
 void add_left_out(CLI::App& parent, const std::string& name);
 

@@ -142,6 +142,7 @@ void add_ports(CLI::App& app) {
       "which\n"
       "is the same at any USB socket.\n\nExample: navcal ports");
   add_ports_command(command);
+  add_ports_send_calibration(*command);
   command->callback([command, json] {
     if (command->get_subcommands().empty()) run(*json);
   });

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
+#include "protocols/mavlink.h"
 #include "tests/cli/calibrate_command.h"
 #include "tests/cli/simulated_recording.h"
 
@@ -55,6 +58,27 @@ TEST_F(Calibrate, ParametersOfAnAutopilotOnlyOfAnAcceptedEstimate) {
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.message.find("b.param was not written"), std::string::npos) << refused.message;
   EXPECT_FALSE(std::filesystem::exists(not_turned));
+}
+
+TEST_F(Calibrate, NoParametersOfALiveLogWhoseFieldsAreCorrected) {
+  std::string capture = "#capture 1\n#port rov mavlink 4000000\n";
+  const auto add = [&](int time_ms, std::uint32_t id, const std::vector<std::uint8_t>& payload) {
+    capture += fmt::format("{}.{:03}000000 rov < ", time_ms / 1000, time_ms % 1000);
+    for (const std::uint8_t byte : protocols::mavlink::encode(id, {1, 1, 0}, payload))
+      capture += fmt::format("{:02x}", byte);
+    capture += '\n';
+  };
+  add(0, 0, {0, 0, 0, 0, 12, 12, 0, 4, 3});  // PX4: of COMPASS_OFS_X it knows nothing
+  for (int i = 1; i < 100; ++i) {
+    std::vector<std::uint8_t> raw_imu;
+    protocols::append_le(raw_imu, std::uint64_t{100'000} * static_cast<std::uint64_t>(i));
+    raw_imu.resize(20);
+    protocols::append_le(raw_imu, static_cast<std::int16_t>(200 + i));
+    add(100 * i, 27, raw_imu);
+  }
+  const Outcome outcome = run({"--parameters", (folder_ / "a.param").string(), write("a.cap", capture)});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.message.find("own calibration is still in the fields"), std::string::npos) << outcome.message;
 }
 
 TEST_F(Calibrate, TheKeysOfTheContract) {

@@ -108,6 +108,7 @@ TEST_F(Vehicle, TheAutopilotsCalibrationIsUndone) {
   ASSERT_EQ(compass.size(), 2U);
   EXPECT_NEAR((*compass[0].field_body_uT)[0], 25, 1e-6);
   EXPECT_NEAR((*compass[1].field_body_uT)[0], 25, 1e-6) << "calibrated anew: the measured field is the same";
+  EXPECT_FALSE(instrument->has_corrected_fields());
 }
 
 TEST_F(Vehicle, WithoutItsParametersTheFieldStaysAsSent) {
@@ -120,6 +121,7 @@ TEST_F(Vehicle, WithoutItsParametersTheFieldStaysAsSent) {
   ASSERT_EQ(compass.size(), 6U) << "of the first five seconds none";
   EXPECT_NEAR((*compass[0].field_body_uT)[0], 20.5, 1e-6);
   EXPECT_NEAR((*compass.back().field_body_uT)[0], 30, 1e-6) << "a change of sort would be a step of the field";
+  EXPECT_TRUE(instrument->has_corrected_fields());
 }
 
 TEST_F(Vehicle, TheFieldHasTheTiltOfTheAttitudeWhileThatIsNew) {

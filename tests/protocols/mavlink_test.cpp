@@ -79,6 +79,44 @@ TEST(Mavlink, WritesTheFramesOfElsewhere) {
   EXPECT_EQ(encode(2, {1, 1, 6}, Bytes(kSystemTime).subspan(10, 12)), kSystemTime);
 }
 
+// An integer is its four bytes to PX4, and a number like any other to ArduPilot.
+TEST(Mavlink, ParametersGoBothWays) {
+  for (const bool is_bytewise : {false, true}) {
+    for (const Parameter& sent : {Parameter{"COMPASS_OFS_X", Parameter::kFloat, -50.25},
+                                  Parameter{"CAL_MAG_COMP_TYP", Parameter::kInt32, -7}}) {
+      const Buffer bytes = encode_setting({255, 25, 3}, 9, sent, is_bytewise);
+      const auto setting = find_message(bytes);
+      ASSERT_EQ(setting.verdict, Verdict::frame);
+      EXPECT_EQ(setting.message.id, 23U);
+      const Payload payload(setting.message.payload);
+      EXPECT_EQ(payload.at<std::uint8_t>(4), 9);
+      EXPECT_EQ(payload.at<std::uint8_t>(5), kAutopilot);
+      EXPECT_EQ(payload.text(6, 16), sent.name);
+      EXPECT_EQ(payload.at<std::uint8_t>(22), sent.type);
+      const bool is_as_bytes = is_bytewise && sent.type == Parameter::kInt32;
+      EXPECT_EQ(is_as_bytes ? static_cast<double>(payload.at<std::int32_t>(0))
+                            : static_cast<double>(payload.at<float>(0)),
+                sent.value);
+      // What the autopilot answers: value, two counts, name, type.
+      Buffer answer(setting.message.payload.begin(), setting.message.payload.begin() + 4);
+      answer.resize(8);
+      answer.insert(answer.end(), sent.name.begin(), sent.name.end());
+      answer.resize(24);
+      answer.push_back(sent.type);
+      const Buffer frame = encode(22, {9, 1, 0}, answer);
+      const Parameter came = parameter_of(find_message(frame).message, is_bytewise);
+      EXPECT_EQ(came.name, sent.name);
+      EXPECT_EQ(came.type, sent.type);
+      EXPECT_EQ(came.value, sent.value);
+    }
+  }
+  const Buffer asked = encode_reading({255, 25, 3}, 9, "COMPASS_OFS_X");
+  const Payload payload(find_message(asked).message.payload);
+  EXPECT_EQ(payload.at<std::int16_t>(0), -1);
+  EXPECT_EQ(payload.at<std::uint8_t>(2), 9);
+  EXPECT_EQ(payload.text(4, 16), "COMPASS_OFS_X");
+}
+
 TEST(Mavlink, ASumOfBeforeTheCutIsRecoveredAndSaid) {
   const auto found = find_message(untrimmed());
   ASSERT_EQ(found.verdict, Verdict::frame);

@@ -186,6 +186,49 @@ TEST(Ulog, CommandsAreSensorsUnlessTheMapNamesThem) {
   EXPECT_NO_THROW(channels.expect_all_found());
 }
 
+/// One field of (0.25, -0.5, 0.125) gauss, of the first compass, and its calibration with one parameter changed.
+std::string calibrated_ulog(const std::string& changed = {}, float to = 0) {
+  UlogWriter log;
+  log.message('F', "vehicle_magnetometer:uint64_t timestamp;uint32_t device_id;float[3] magnetometer_ga;");
+  const auto parameter = [&](const std::string& key, auto value) {
+    if (key.ends_with(' ' + changed)) value = static_cast<decltype(value)>(to);
+    std::string content = static_cast<char>(key.size()) + key;
+    append_number(content, value);
+    log.message('P', content);
+  };
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    const std::string of = std::string("float CAL_MAG0_") + axis;
+    parameter(of + "OFF", axis == 'X' ? 0.0625F : -0.125F);
+    parameter(of + "SCALE", axis == 'Y' ? 2.0F : 1.0F);
+    parameter(of + "ODIAG", 0.0F);
+  }
+  for (const std::string name : {"CAL_MAG0_ROT", "SENS_BOARD_ROT", "CAL_MAG_COMP_TYP"})
+    parameter("int32_t " + name, std::int32_t{0});
+  parameter("int32_t CAL_MAG0_ID", std::int32_t{77});
+  parameter("float SENS_BOARD_Y_OFF", 0.0F);
+  log.subscribe(0, 0, "vehicle_magnetometer");
+  log.data(0, 5, std::uint32_t{77}, 0.25F, -0.5F, 0.125F);
+  return log.out;
+}
+
+TEST(Ulog, TheCalibrationOfTheAutopilotIsUndoneWhereItIsKnown) {
+  const auto field = [](const std::string& log, bool is_undone, bool undoes = true) {
+    RecordingSink sink;
+    MotorChannels none;
+    EXPECT_NE(read_ulog(log, sink, none, undoes).has_corrected_fields, is_undone);
+    return sink.of_port("compass").at(0).line["field_body_uT"];
+  };
+  // D (measured - OFF), in gauss: X 0.25 + 0.0625, Y -0.5 / 2 - 0.125, Z 0.125 - 0.125.
+  expect_vector(field(calibrated_ulog(), true), 31.25, -37.5, 0);
+  expect_vector(field(calibrated_ulog("CAL_MAG0_ROT", -1), true), 31.25, -37.5, 0);
+  expect_vector(field(calibrated_ulog(), false, false), 25, -50, 12.5);
+  const std::vector<std::pair<std::string, float>> without{{"CAL_MAG0_ROT", 6.0F},     {"SENS_BOARD_ROT", 2.0F},
+                                                           {"SENS_BOARD_Y_OFF", 1.0F}, {"CAL_MAG_COMP_TYP", 2.0F},
+                                                           {"CAL_MAG0_ID", 78.0F},     {"CAL_MAG0_ZSCALE", 0.0F}};
+  for (const auto& [name, value] : without)
+    expect_vector(field(calibrated_ulog(name, value), false), 25, -50, 12.5);
+}
+
 TEST(Ulog, EachTypeIsLaidOutOnceHoweverOftenItIsNested) {
   UlogWriter log;
   // A type without fields takes no bytes, so that no size ends the nesting.
