@@ -117,17 +117,19 @@ void begin(const NewArguments& arguments) {
   }
 }
 
+void add_capture(CLI::App& command, std::string& capture, std::string& port) {
+  command
+      .add_option("CAPTURE", capture, "Bytes as the device sent them (- is standard input), or a capture or log")
+      ->required();
+  command.add_option("--port", port, "Port of the capture or log; default: the only one")->type_name("NAME");
+}
+
 void add_check(CLI::App& devices) {
   const auto arguments = std::make_shared<CheckArguments>();
   auto* const command =
       devices.add_subcommand("check", "What a description finds in a capture of the device's bytes");
   command->add_option("FILE", arguments->description, "Description of the device (.toml)")->required();
-  command
-      ->add_option("CAPTURE", arguments->capture,
-                   "Bytes as the device sent them (- is standard input), or a capture or log")
-      ->required();
-  command->add_option("--port", arguments->port, "Port of the capture or log; default: the only one")
-      ->type_name("NAME");
+  add_capture(*command, arguments->capture, arguments->port);
   command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
   command->footer(
       "Shows frames by kind, bad checksums, skipped bytes and where the first ones are, the range of each field, "
@@ -141,12 +143,7 @@ void add_new(CLI::App& devices) {
   const auto arguments = std::make_shared<NewArguments>();
   auto* const command =
       devices.add_subcommand("new", "Begin the description of a device from a capture of its bytes");
-  command
-      ->add_option("CAPTURE", arguments->capture,
-                   "Bytes as the device sent them (- is standard input), or a capture or log")
-      ->required();
-  command->add_option("--port", arguments->port, "Port of the capture or log; default: the only one")
-      ->type_name("NAME");
+  add_capture(*command, arguments->capture, arguments->port);
   command
       ->add_option("-o,--output", arguments->output,
                    "File to be written; one that is there is never written over. Default: standard output")

@@ -31,39 +31,29 @@ class Printer : public analysis::ReplaySink {
   Printer(const config::Settings& settings, base::Output& output) : settings_(settings), output_(output) {}
   void on_sample(const instruments::Sample& sample) override {
     if (std::holds_alternative<instruments::SkySample>(sample.value)) return;  // no line of the contract
-    line_.clear();
     record::append_json(line_, sample, settings_.ports[sample.port].name);
-    line_ += '\n';
-    output_.append(line_);
+    end_line();
   }
   void on_stream_event(const pipeline::StreamEvent& event) override {
-    line_.clear();
     record::append_event_json(line_, mapping_, event.time_ns, event.severity, event.name,
                               settings_.ports[event.port].name, event.message);
-    line_ += '\n';
-    output_.append(line_);
+    end_line();
   }
   void on_mapping(const pipeline::UtcMapping& mapping) override { mapping_ = mapping; }
   void on_navigation(const pipeline::NavigationSample& sample) override {
-    line_.clear();
     record::append_json(line_, sample);
-    line_ += '\n';
-    output_.append(line_);
+    end_line();
   }
   void on_battery(const pipeline::BatterySample& sample) override {
-    line_.clear();
     record::append_json(line_, sample, settings_.ports[sample.port].name);
-    line_ += '\n';
-    output_.append(line_);
+    end_line();
   }
   void on_alarm(const pipeline::AlarmChange& change) override {
-    line_.clear();
     const bool is_battery = change.alarm == pipeline::EstimateAlarm::battery_low;
     record::append_event_json(line_, mapping_, change.time_ns, change.raised ? "alarm" : "info",
                               change.raised ? "alarm.raised" : "alarm.cleared", settings_.ports[change.port].name,
                               (is_battery ? "battery_low: " : "floor_near: ") + change.words);
-    line_ += '\n';
-    output_.append(line_);
+    end_line();
   }
   /// A command is printed as it was logged, because the result of an order does not follow from the bytes.
   void on_command(const record::LoggedCommand& command) override {
@@ -71,6 +61,12 @@ class Printer : public analysis::ReplaySink {
   }
 
  private:
+  void end_line() {
+    line_ += '\n';
+    output_.append(line_);
+    line_.clear();
+  }
+
   const config::Settings& settings_;
   base::Output& output_;
   pipeline::UtcMapping mapping_;

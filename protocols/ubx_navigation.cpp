@@ -49,8 +49,7 @@ void lay_out_time_and_place(const Layout& p, Pvt& pvt, std::size_t shift) {
   p.template scaled<std::int32_t>(shift + 32, pvt.height_msl_m, kMillimetre_m);
 }
 
-template <class Layout, class Pvt>
-void lay_out_nav_pvt(const Layout& p, Pvt& pvt) {
+constexpr auto kLayOutPvt = [](const auto& p, auto& pvt) {
   lay_out_time_and_place(p, pvt, 4);
   p.template scaled<std::uint32_t>(12, pvt.time_accuracy_s, kNanosecond_s);
   p.bits(21, 1, 1, pvt.differential);
@@ -66,10 +65,9 @@ void lay_out_nav_pvt(const Layout& p, Pvt& pvt) {
   p.template scaled<std::uint32_t>(72, pvt.heading_accuracy_deg, kHeadingStep_deg);
   p.template scaled<std::uint16_t>(76, pvt.pdop, kDopStep);
   p.bits(78, 0, 1, pvt.position_invalid);
-}
+};
 
-template <class Layout, class Time>
-void lay_out_timegps(const Layout& p, Time& time) {
+constexpr auto kLayOutTimeGps = [](const auto& p, auto& time) {
   p.number(0, time.time_of_week_ms);
   p.number(4, time.fraction_ns);
   p.number(8, time.week);
@@ -78,10 +76,9 @@ void lay_out_timegps(const Layout& p, Time& time) {
   p.bits(11, 1, 1, time.week_valid);
   p.bits(11, 2, 1, time.leap_valid);
   p.template scaled<std::uint32_t>(12, time.time_accuracy_s, kNanosecond_s);
-}
+};
 
-template <class Layout, class Dop>
-void lay_out_dop(const Layout& p, Dop& dop) {
+constexpr auto kLayOutDop = [](const auto& p, auto& dop) {
   p.number(0, dop.time_of_week_ms);
   std::size_t at = 4;
   for (auto* const value :
@@ -89,7 +86,7 @@ void lay_out_dop(const Layout& p, Dop& dop) {
     p.template scaled<std::uint16_t>(at, *value, kDopStep);
     at += 2;
   }
-}
+};
 
 template <class Layout, class Satellite>
 void lay_out_satellite(const Layout& p, std::size_t at, Satellite& one) {
@@ -103,6 +100,23 @@ void lay_out_satellite(const Layout& p, std::size_t at, Satellite& one) {
   p.bits(at + 8, 0, 3, one.quality);
   p.bits(at + 8, 3, 1, one.used);
   p.bits(at + 8, 4, 2, one.health);
+}
+
+/// A message whose fields `lay_out(layout, message)` places, from a frame.
+template <class Message, class LayOut>
+std::optional<Message> decoded(Bytes frame, MessageCode code, std::size_t least, LayOut lay_out) {
+  const auto payload = payload_if(frame, code, least);
+  if (!payload) return std::nullopt;
+  Message message;
+  lay_out(LayoutReader(*payload), message);
+  return message;
+}
+
+template <class Message, class LayOut>
+std::vector<std::uint8_t> encoded(const Message& message, MessageCode code, std::size_t length, LayOut lay_out) {
+  std::vector<std::uint8_t> payload(length);
+  lay_out(LayoutWriter(payload), message);
+  return encode_frame(code, payload);
 }
 
 }  // namespace
@@ -126,17 +140,11 @@ Fix NavPvt::fix() const {
 }
 
 std::optional<NavPvt> decode_nav_pvt(Bytes frame) {
-  const auto payload = payload_if(frame, kNavPvt, kPvtLengthOld);
-  if (!payload) return std::nullopt;
-  NavPvt pvt;
-  lay_out_nav_pvt(LayoutReader(*payload), pvt);
-  return pvt;
+  return decoded<NavPvt>(frame, kNavPvt, kPvtLengthOld, kLayOutPvt);
 }
 
 std::vector<std::uint8_t> encode_nav_pvt(const NavPvt& pvt) {
-  std::vector<std::uint8_t> payload(kPvtLength);
-  lay_out_nav_pvt(LayoutWriter(payload), pvt);
-  return encode_frame(kNavPvt, payload);
+  return encoded(pvt, kNavPvt, kPvtLength, kLayOutPvt);
 }
 
 std::optional<NavPvt> decode_hnr_pvt(Bytes frame) {
@@ -186,31 +194,19 @@ std::optional<RelativePosition> decode_nav_relposned(Bytes frame) {
 }
 
 std::optional<NavTimeGps> decode_nav_timegps(Bytes frame) {
-  const auto payload = payload_if(frame, kNavTimeGps, kTimeGpsLength);
-  if (!payload) return std::nullopt;
-  NavTimeGps time;
-  lay_out_timegps(LayoutReader(*payload), time);
-  return time;
+  return decoded<NavTimeGps>(frame, kNavTimeGps, kTimeGpsLength, kLayOutTimeGps);
 }
 
 std::vector<std::uint8_t> encode_nav_timegps(const NavTimeGps& time) {
-  std::vector<std::uint8_t> payload(kTimeGpsLength);
-  lay_out_timegps(LayoutWriter(payload), time);
-  return encode_frame(kNavTimeGps, payload);
+  return encoded(time, kNavTimeGps, kTimeGpsLength, kLayOutTimeGps);
 }
 
 std::optional<NavDop> decode_nav_dop(Bytes frame) {
-  const auto payload = payload_if(frame, kNavDop, kDopLength);
-  if (!payload) return std::nullopt;
-  NavDop dop;
-  lay_out_dop(LayoutReader(*payload), dop);
-  return dop;
+  return decoded<NavDop>(frame, kNavDop, kDopLength, kLayOutDop);
 }
 
 std::vector<std::uint8_t> encode_nav_dop(const NavDop& dop) {
-  std::vector<std::uint8_t> payload(kDopLength);
-  lay_out_dop(LayoutWriter(payload), dop);
-  return encode_frame(kNavDop, payload);
+  return encoded(dop, kNavDop, kDopLength, kLayOutDop);
 }
 
 std::optional<NavSat> decode_nav_sat(Bytes frame) {

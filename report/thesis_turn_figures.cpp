@@ -113,33 +113,29 @@ ThesisCurve true_value(const ThesisTurnTrace& trace, double value) {
   return {"true", Ink::fit, {trace.time_s.front(), trace.time_s.back()}, {value, value}};
 }
 
-/// Range of the identifier's values and the true one; the filter's first estimates may be far off.
-Range estimate_range(const std::vector<double>& identifier, double truth) {
-  std::vector<double> values = identifier;
-  values.push_back(truth);
-  return whole_range_of(values);
+/// An estimate of navcal and of the identifier, beside the true value.
+ThesisPanel estimate_panel(const ThesisTurnTrace& trace, const char* title, const char* unit, double truth,
+                           const std::vector<double>& navcal, const std::vector<double>& identifier) {
+  // The filter's first estimates may be far off.
+  std::vector<double> shown = identifier;
+  shown.push_back(truth);
+  return {title,
+          kSeconds,
+          unit,
+          {true_value(trace, truth),
+           {"navcal", Ink::first, trace.time_s, navcal},
+           {"identifier", Ink::second, trace.time_s, identifier}},
+          false,
+          whole_range_of(shown)};
 }
 
 ThesisPanel scale_panel(const ThesisTurnTrace& trace) {
-  return {"Scale abar",
-          kSeconds,
-          "",
-          {true_value(trace, kTrueScale),
-           {"navcal", Ink::first, trace.time_s, trace.navcal_scale},
-           {"identifier", Ink::second, trace.time_s, trace.adaptive_scale}},
-          false,
-          estimate_range(trace.adaptive_scale, kTrueScale)};
+  return estimate_panel(trace, "Scale abar", "", kTrueScale, trace.navcal_scale, trace.adaptive_scale);
 }
 
 ThesisPanel bias_panel(const ThesisTurnTrace& trace) {
-  return {"Bias bbar",
-          kSeconds,
-          "rad/s",
-          {true_value(trace, kTrueBias_rad_s),
-           {"navcal", Ink::first, trace.time_s, trace.navcal_bias_rad_s},
-           {"identifier", Ink::second, trace.time_s, trace.adaptive_bias_rad_s}},
-          false,
-          estimate_range(trace.adaptive_bias_rad_s, kTrueBias_rad_s)};
+  return estimate_panel(trace, "Bias bbar", "rad/s", kTrueBias_rad_s, trace.navcal_bias_rad_s,
+                        trace.adaptive_bias_rad_s);
 }
 
 ThesisPanel state_error_panel(const ThesisTurnTrace& trace) {

@@ -10,17 +10,12 @@
 #include <tuple>
 
 #include "base/angles.h"
+#include "base/enum_name.h"
 
 namespace navcal::analysis {
 
 std::string_view name_of(Certainty certainty) {
-  switch (certainty) {
-    case Certainty::found: return "found";
-    case Certainty::likely: return "likely";
-    case Certainty::cannot_say: return "cannot say";
-    case Certainty::nothing: break;
-  }
-  return "nothing found";
+  return base::enum_name<Certainty::nothing>(certainty, {"found", "likely", "cannot say", "nothing found"});
 }
 
 void Finding::put(const Bounded& bounds, std::string_view of_unit) {
