@@ -13,8 +13,8 @@
 #include <memory>
 #include <optional>
 
-#include "analysis/temporary_folder.h"
 #include "base/interruptible.h"
+#include "base/temporary_folder.h"
 #include "cli/commands.h"
 #include "cli/doctor_checks.h"
 #include "cli/option_kinds.h"
@@ -198,7 +198,7 @@ void start(const StartCommandOptions& options) {
   write_configuration(plan);
   check_configuration(navcald[0], plan.configuration);
 
-  std::optional<analysis::TemporaryFolder> trial;  // in the place of the service's folders
+  std::optional<base::TemporaryFolder> trial;  // in the place of the service's folders
   if (plan.is_service) {
     const std::string folder = trial.emplace().path();
     navcald.insert(navcald.end(), {"--set", "log.enabled=false", "--set", "log.directory=" + folder, "--set",

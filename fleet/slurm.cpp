@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fleet/slurm.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +13,7 @@
 #include <system_error>
 
 #include "base/descriptor.h"
+#include "base/spawn.h"
 
 namespace navcal::fleet {
 namespace {
@@ -78,24 +77,14 @@ std::string_view take_field(std::string_view& text, char separator) {
 
 CommandOutput run_command(const std::vector<std::string>& command) {
   const base::Descriptor out = memory_file("out"), err = memory_file("err");
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t attributes;
-  ::posix_spawn_file_actions_init(&files);
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&files, out.get(), STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, err.get(), STDERR_FILENO);
-  ::posix_spawnattr_setpgroup(&attributes, 0);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  std::vector<char*> arguments;
-  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
+  const auto path_of = [](const base::Descriptor& file) { return fmt::format("/proc/self/fd/{}", file.get()); };
   pid_t pid = -1;
-  const int error = ::posix_spawnp(&pid, arguments[0], &files, &attributes, arguments.data(), ::environ);
-  ::posix_spawn_file_actions_destroy(&files);
-  ::posix_spawnattr_destroy(&attributes);
-  if (error == ENOENT) return {kNoSuchProgram, {}, command.front() + ": there is no such program"};
-  if (error != 0) throw std::system_error(error, std::system_category(), command.front());
+  try {
+    pid = base::spawn({.command = command, .errors = path_of(err), .output = path_of(out)});
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::no_such_file_or_directory) throw;
+    return {kNoSuchProgram, {}, command.front() + ": there is no such program"};
+  }
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
   return {WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status), content_of(out),

@@ -9,9 +9,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "analysis/temporary_folder.h"
 #include "base/enum_name.h"
 #include "base/interruptible.h"
+#include "base/temporary_folder.h"
 #include "config/mission_file.h"
 #include "validation/child.h"
 #include "validation/missions.h"
@@ -102,7 +102,7 @@ class ActiveCase {
   const TrialCase& drawn_;
   const ActiveOptions& options_;
   reference::Rng dice_;
-  analysis::TemporaryFolder folder_;
+  base::TemporaryFolder folder_;
   fs::path vehicle_, first_, holdout_;
   reference::Mission survey_;
   int day_ = 0;

@@ -15,8 +15,8 @@
 #include <tuple>
 #include <utility>
 
-#include "analysis/temporary_folder.h"
 #include "base/interruptible.h"
+#include "base/temporary_folder.h"
 #include "validation/child.h"
 #include "validation/recordings.h"
 
@@ -74,7 +74,7 @@ void keep(const fs::path& folder, const fs::path& keep, int number) {
 /// and no more, and reads its answer. Absent when it was interrupted.
 std::optional<TrialResult> ask(const TrialCase& drawn, const Commitment& seal, const CaseRunOptions& asking) {
   TrialResult result{drawn, seal, {}, {}, {}, 0, false};
-  const analysis::TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   try {
     diagnose(drawn, asking, folder.path(), result);
   } catch (const std::exception& error) {

@@ -11,8 +11,8 @@
 #include "analysis/import/import_log.h"
 #include "analysis/noise/channel_collector.h"
 #include "analysis/replay_run.h"
-#include "analysis/temporary_folder.h"
 #include "base/durations.h"
+#include "base/temporary_folder.h"
 #include "instruments/sample_fields.h"
 
 namespace navcal::analysis {
@@ -165,7 +165,7 @@ std::array<record::TimeWindow, 2> halves_of(const AuditedLog& log, const record:
 }
 
 /// A log or a capture of what `request` names, in `folder` where it is neither.
-std::string readable(const AuditRequest& request, const TemporaryFolder& folder, AuditedLog& log,
+std::string readable(const AuditRequest& request, const base::TemporaryFolder& folder, AuditedLog& log,
                      const KeepGoing& keep_going) {
   const record::Progress progress = [&](double share) {
     if (!keep_going("importing", share))
@@ -237,7 +237,7 @@ std::optional<double> value_at(const Series& series, double time_s, double most_
 AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going) {
   AuditedLog log;
   log.file = request.file;
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   const std::string file = readable(request, folder, log, keep_going);
   read_samples(log, file, request.window, keep_going);
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;

@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-namespace navcal::analysis {
+namespace navcal::base {
 
 /// A folder whose name says nothing. It goes with everything in it. Throws std::system_error when none can be
 /// made.
@@ -31,4 +31,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace navcal::analysis
+}  // namespace navcal::base
