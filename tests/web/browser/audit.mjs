@@ -9,10 +9,13 @@ import { Page } from "./browser.mjs";
 
 const SAMPLE = fileURLToPath(new URL("../../../share/samples/three-faults.BIN", import.meta.url));
 
+/** Its scripts have run. */
+const isReady = (page) => page.when(() => document.readyState === "complete" && document.getElementById("file") !== null);
+
 async function choose(page, file) {
-  const { root } = await page.call("DOM.getDocument");
-  const { nodeId } = await page.call("DOM.querySelector", { nodeId: root.nodeId, selector: "#file" });
-  await page.call("DOM.setFileInputFiles", { nodeId, files: [file] });
+  await isReady(page);
+  const { result } = await page.call("Runtime.evaluate", { expression: 'document.getElementById("file")' });
+  await page.call("DOM.setFileInputFiles", { objectId: result.objectId, files: [file] });
 }
 
 async function drop(page, file) {
@@ -37,7 +40,7 @@ export async function auditsLogs(browser, vehicle, folder, step) {
   const page = await Page.open(browser, `http://127.0.0.1:${port}/`);
   await page.click("#audit-link");
   await page.until("h1", /Audit a log/);
-  await page.when(() => document.readyState === "complete");
+  await isReady(page);
   await page.picture(join(folder, "audit-empty.png"));
   await drop(page, SAMPLE);
   await page.until("h1", /Audit of three-faults\.BIN/);
