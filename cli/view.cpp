@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -14,13 +12,12 @@
 #include "analysis/import/import_log.h"
 #include "analysis/log_import.h"
 #include "base/printable.h"
+#include "base/spawn.h"
 #include "base/temporary_folder.h"
 #include "cli/live/commands.h"
 #include "cli/live/result_file.h"
 #include "record/recording.h"
 #include "web/viewer.h"
-
-extern char** environ;
 
 namespace navcal::cli {
 namespace {
@@ -52,19 +49,12 @@ std::filesystem::path log_of(const std::string& file, const std::filesystem::pat
 /// Opens the page where there is a display. Without xdg-open nothing happens: the address was printed.
 void open_browser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  std::string program = "xdg-open", argument = address;
-  char* const command[] = {program.data(), argument.data(), nullptr};
-  // What the browser prints is nothing to the reader of this program's output.
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", 1, 0);
-  ::posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  pid_t child = 0;
-  // A child that ends is not waited for.
-  ::signal(SIGCHLD, SIG_IGN);
-  if (::posix_spawnp(&child, command[0], &actions, nullptr, command, environ) != 0)
+  // What the browser prints is nothing to the reader of this program's output, and its end is not waited for.
+  try {
+    (void)base::spawn({.command = {"xdg-open", address}});
+  } catch (const std::system_error&) {
     fmt::print(stderr, "navcal view: there is no xdg-open; open the address by hand\n");
-  ::posix_spawn_file_actions_destroy(&actions);
+  }
 }
 
 void view(const ViewArguments& arguments) {

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <utility>
 
-#include "base/run_command.h"
+#include "base/spawn.h"
 
 namespace navcal::fleet {
 namespace {

@@ -33,7 +33,8 @@ Figure audit_figure(const Finding& finding) {
     for (const auto& [x, y] : points) drawn.push_back({x, y});
     plot.points(kInks.at(ink++ % kInks.size()), name, drawn);
   }
-  return {finding.title + ", " + finding.channel, plot.svg(), finding.sentence};
+  return {fmt::format("{} ({})", finding.title, finding.channel), plot.svg(),
+          picture.title + ". " + finding.sentence};
 }
 
 void append_file(HtmlPage& page, const analysis::AuditedFile& file) {
@@ -54,11 +55,16 @@ void append_file(HtmlPage& page, const analysis::AuditedFile& file) {
        {Certainty::found, Certainty::likely, Certainty::cannot_say, Certainty::nothing}) {
     std::vector<std::vector<std::string>> rows;
     for (const Finding& finding : file.findings) {
-      if (finding.certainty == certainty) rows.push_back({headline_of(finding), finding.sentence, finding.todo});
+      if (finding.certainty != certainty) continue;
+      rows.push_back({headline_of(finding), finding.sentence});
+      if (certainty != Certainty::nothing) rows.back().push_back(finding.todo);
     }
     if (rows.empty()) continue;
     page.heading(name_of(certainty));
-    page.table({"finding with its 95 % interval and cost", "evidence", "what to do"}, rows);
+    std::vector<std::string> heads{"looked for", "what the log shows", "what to do"};
+    if (certainty <= Certainty::likely) heads.front() = "finding with its 95 % interval and cost";
+    if (certainty == Certainty::nothing) heads.pop_back();
+    page.table(heads, rows);
   }
   std::vector<std::vector<std::string>> made{
       {"File", file.file}, {"Length", duration_text(file.duration_s)}, {"Program", "navcal " NAVCAL_VERSION}};

@@ -25,7 +25,7 @@ void append_finding(std::string& out, const Finding& finding) {
 }  // namespace
 
 std::string headline_of(const Finding& finding) {
-  std::string text = finding.title + ", " + finding.channel;
+  std::string text = fmt::format("{} ({})", finding.title, finding.channel);
   if (finding.value) {
     const double half = (*finding.high - *finding.low) / 2;
     const int decimals = std::max(decimals_for(*finding.value, half), 0);
@@ -34,9 +34,10 @@ std::string headline_of(const Finding& finding) {
                      : fmt::format(": {:.4g}", *finding.value);
     if (!finding.unit.empty()) text += " " + finding.unit;
   }
-  if (finding.heading_deg) base::append_format(text, "; {:.2g} deg of heading", *finding.heading_deg);
+  if (finding.heading_deg) base::append_format(text, "; costs {:.2g} deg of heading", *finding.heading_deg);
   if (finding.position_m)
-    base::append_format(text, "{} {:.0f} m in ten minutes", finding.heading_deg ? "," : ";", *finding.position_m);
+    base::append_format(text, "{} {:.0f} m in ten minutes", finding.heading_deg ? "," : "; costs",
+                        *finding.position_m);
   return text;
 }
 
@@ -46,7 +47,8 @@ std::string summary_of(const analysis::AuditedFile& file) {
                          [&](const Finding& finding) { return finding.certainty == certainty; });
   };
   return fmt::format(
-      "{} found, {} likely; {} checked without a finding, {} cannot be said. Costs are at {:.1f} m/s.{}",
+      "{} found, {} likely; {} checked without a finding, {} cannot be said. Costs are for a speed of {:.1f} "
+      "m/s.{}",
       count(Certainty::found), count(Certainty::likely), count(Certainty::nothing), count(Certainty::cannot_say),
       file.speed_m_s, file.is_partial ? " Reading was ended before the end of the file." : "");
 }

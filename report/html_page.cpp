@@ -26,7 +26,7 @@ constexpr std::string_view kStyle = R"(
     --before:#c2571a; --after:#0b6fa8; --fit:#000; --second:#c2571a; --third:#1d7f58; --fourth:#8a4f9e;
     --good:#17693f; --good-back:#fff; --bad:#a3261c; --bad-back:#fff;
     --heat0:#e9edf1; --heat1:#fbe0ce; --heat2:#f5c29e; --heat3:#eb9c69; --heat4:#dd7a3c; }
-  figure, table, .fact { break-inside: avoid; }
+  figure, tr, .fact { break-inside: avoid; }
   h2 { break-after: avoid; }
   main { max-width: none; padding: 0; }
 }
@@ -106,6 +106,8 @@ th { color:var(--soft); font-weight:600; font-size:13px; }
 summary { margin:14px 0; color:var(--soft); cursor:pointer; }
 @media (max-width:900px) { th, td { padding-right:9px; } }
 @media (max-width:600px) { .ranks .detail { grid-column:1/-1; margin-top:-4px; } main { padding:20px 14px 36px; } }
+@media print { body, table, th, td, figcaption, .fact { font-size:11px; line-height:1.35; } th, td { padding:1px 9px 1px 0; }
+  h2, section h3 { margin:10px 0 4px; padding-top:6px; } figure { padding:6px; } svg { max-height:6cm; } }
 )";
 
 /// Long cells break anywhere: digests and file names have no spaces.

@@ -1,63 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validation/child.h"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/interruptible.h"
+#include "base/spawn.h"
 
-// Not Boost.Process: version 1 waits with a timeout by forking, version 2 (new in 1.81) needs Boost.Filesystem and
-// ends a child that cannot be started by exit(), which writes our buffers a second time.
 namespace navcal::validation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void check(int error, const std::string& what) {
-  if (error != 0) throw std::system_error(error, std::system_category(), what);
-}
-
-class Spawning {
- public:
-  explicit Spawning(const std::filesystem::path& errors) {
-    check(::posix_spawn_file_actions_init(&files_), "posix_spawn");
-    check(::posix_spawnattr_init(&attributes_), "posix_spawn");
-    ::posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_addopen(&files_, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    ::posix_spawn_file_actions_addclosefrom_np(&files_, STDERR_FILENO + 1);
-    // A group of its own: what the program starts ends with it, and a terminal's Ctrl-C is ours to pass on.
-    ::posix_spawnattr_setpgroup(&attributes_, 0);
-    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
-  }
-  Spawning(const Spawning&) = delete;
-  Spawning& operator=(const Spawning&) = delete;
-  ~Spawning() {
-    ::posix_spawn_file_actions_destroy(&files_);
-    ::posix_spawnattr_destroy(&attributes_);
-  }
-
-  [[nodiscard]] pid_t start(const std::filesystem::path& program, std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), program.string());
-    std::vector<char*> pointers;
-    pointers.reserve(arguments.size() + 1);
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    pid_t pid = -1;
-    check(::posix_spawn(&pid, program.c_str(), &files_, &attributes_, pointers.data(), ::environ),
-          program.string());
-    return pid;
-  }
-
- private:
-  posix_spawn_file_actions_t files_{};
-  posix_spawnattr_t attributes_{};
-};
 
 class Child {
  public:
@@ -67,7 +23,7 @@ class Child {
     const int error = errno;
     ::kill(-pid_, SIGKILL);
     reap();
-    check(error, "pidfd_open");
+    throw std::system_error(error, std::system_category(), "pidfd_open");
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -106,7 +62,9 @@ class Child {
 ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                    const std::filesystem::path& errors, std::chrono::milliseconds timeout) {
   const auto begin = Clock::now();
-  const Child child(Spawning(errors).start(program, arguments));
+  std::vector<std::string> command{program.string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const Child child(base::spawn({.command = command, .errors = errors}));
   ChildEnd end;
   if (!child.ended_by(begin + timeout, true)) {
     end.how = base::Interruptible::interrupted() ? ChildEnd::How::interrupted : ChildEnd::How::timed_out;

@@ -28,6 +28,13 @@ std::string_view name_of(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
+bool is_this_computer(std::string_view name) {
+  boost::system::error_code no_address;
+  const std::string address = boost::asio::ip::make_address(std::string(name), no_address).to_string();
+  if (no_address) return is_same_word(name, "localhost");
+  return address == "::1" || address.starts_with("127.") || address.starts_with("::ffff:127.");
+}
+
 bool is_equal_in_constant_time(std::string_view a, std::string_view b) {
   unsigned difference = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -70,6 +77,13 @@ bool Access::knows_origin(std::string_view origin, std::string_view host) const 
   if (scheme != std::string_view::npos && is_same_word(origin.substr(scheme + 3), host)) return true;
   return std::any_of(origins_.begin(), origins_.end(),
                      [origin](const std::string& known) { return is_same_word(known, origin); });
+}
+
+bool is_from_here(std::string_view from, std::string_view host, std::string_view origin) {
+  const auto scheme = origin.find("://");
+  const bool is_own_page =
+      origin.empty() || (scheme != std::string_view::npos && is_this_computer(name_of(origin.substr(scheme + 3))));
+  return is_own_page && is_this_computer(from) && is_this_computer(name_of(host));
 }
 
 std::string read_token(const std::filesystem::path& file) {

@@ -35,6 +35,10 @@ class Access {
   std::vector<std::string> host_names_, origins_;
 };
 
+/// True for a request of this computer's address `from`, under a name that means this computer on each, and of no
+/// page of another name: a proxy in front shows the names under which others reach it.
+[[nodiscard]] bool is_from_here(std::string_view from, std::string_view host, std::string_view origin);
+
 /// The first line of a token file, without the blanks around it. Throws std::runtime_error, with the file's name,
 /// when it cannot be read, when the token is shorter than 16 characters, or when others than its owner and group
 /// may read it.

@@ -11,6 +11,7 @@
 
 #include "base/line_reader.h"
 #include "ports/no_throw.h"
+#include "web/http.h"
 
 namespace navcal::web {
 namespace asio = boost::asio;
@@ -23,11 +24,6 @@ constexpr std::size_t kMaxControlRequest = 4096;
 constexpr std::size_t kMaxControlAnswer = 128 << 10;
 /// Requests that may wait for navcald, which answers one after the other.
 constexpr std::size_t kMaxWaiting_bytes = 64 << 10;
-
-std::string control_refusal(std::string_view why) {
-  const nlohmann::ordered_json answer{{"ok", false}, {"error", why}};
-  return answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 /// The connection to navcald, which outlives the WebSocket client by the time that its last operations need.
 class ControlConnection : public std::enable_shared_from_this<ControlConnection> {
@@ -87,7 +83,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   }
   void end(const std::string& why) {
     if (link_ == nullptr) return;
-    link_->send_text(control_refusal(why));
+    link_->send_text(refusal(why));
     link_->close(why);
     forget_client();
   }
@@ -113,9 +109,9 @@ class ControlPeer final : public Peer {
     if (!admitted_) {
       admit(text);
     } else if (text.size() > kMaxControlRequest || text.find_first_of("\r\n") != std::string_view::npos) {
-      link_.send_text(control_refusal("a request is one line of at most 4096 bytes"));
+      link_.send_text(refusal("a request is one line of at most 4096 bytes"));
     } else if (!connection_->send(text)) {
-      link_.send_text(control_refusal("navcald does not answer; too many requests wait"));
+      link_.send_text(refusal("navcald does not answer; too many requests wait"));
     }
   }
 
@@ -126,7 +122,7 @@ class ControlPeer final : public Peer {
     if (request.is_object() && request.contains("token") && request["token"].is_string())
       token = request["token"].get<std::string>();
     if (const auto why = access_.refusal("Bearer " + token)) {
-      link_.send_text(control_refusal(*why));
+      link_.send_text(refusal(*why));
       link_.close(*why);
       return;
     }

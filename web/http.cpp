@@ -72,9 +72,11 @@ Response respond_json(http::status status, std::string body) {
   return respond(status, "application/json", std::move(body));
 }
 
-Response refuse(http::status status, std::string_view why) {
+std::string refusal(std::string_view why) {
   const nlohmann::ordered_json answer{{"ok", false}, {"error", why}};
-  return respond_json(status, answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  return answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
+
+Response refuse(http::status status, std::string_view why) { return respond_json(status, refusal(why) + "\n"); }
 
 }  // namespace navcal::web

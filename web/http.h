@@ -30,6 +30,7 @@ using Handler = std::function<boost::asio::awaitable<Response>(const Request&)>;
 [[nodiscard]] Response respond(boost::beast::http::status status, std::string_view content_type, std::string body);
 [[nodiscard]] Response respond_json(boost::beast::http::status status, std::string body);
 /// `{"ok":false,"error":why}`, as navcald's control socket refuses.
+[[nodiscard]] std::string refusal(std::string_view why);
 [[nodiscard]] Response refuse(boost::beast::http::status status, std::string_view why);
 
 }  // namespace navcal::web

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "web/audit_peer.h"
 #include "web/page_files.h"
 
 namespace navcal::web {
@@ -125,6 +126,7 @@ std::shared_ptr<PageFeed> add_page(Site& site, const asio::any_io_executor& exec
   live.path = "/live";
   live.make_peer = [weak](PeerLink& link, std::string_view) { return PageFeed::make_viewer(weak.lock(), link); };
   site.add(std::move(live));
+  site.add(audit_endpoint(executor));
   return feed;
 }
 

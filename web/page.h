@@ -17,9 +17,9 @@ namespace navcal::web {
 /// std::runtime_error, with the file's name and the line, when it cannot be read.
 [[nodiscard]] std::string read_simulated_track(const std::filesystem::path& file);
 
-/// Adds the page to a site: its files from `/` on, `/live`, `/live.json`, and `/track.json` of the CSV file
-/// `track` where one is given. The site serves it as long as the feed lives. Throws std::runtime_error when the
-/// track cannot be read.
+/// Adds the page to a site: its files from `/` on, `/live`, `/live.json`, `/audit`, and `/track.json` of the CSV
+/// file `track` where one is given. The site serves it as long as the feed lives. Throws std::runtime_error when
+/// the track cannot be read.
 [[nodiscard]] std::shared_ptr<PageFeed> add_page(Site& site, const boost::asio::any_io_executor& executor,
                                                  Hub& hub, PageFeed::Settings settings,
                                                  const std::filesystem::path& track = {});

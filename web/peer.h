@@ -25,6 +25,8 @@ class PeerLink {
   virtual void close(std::string_view reason) = 0;
   /// The client has shown the token: it keeps its place, however many others come.
   virtual void show_token() {}
+  /// The client runs on this computer (web/access.h).
+  [[nodiscard]] virtual bool is_from_here() const { return false; }
   /// Bytes that wait for the client.
   [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
 

@@ -24,8 +24,9 @@ using ports::kNoThrow;
 /// One WebSocket client: reads its messages, and writes what waits for it, one message after the other.
 class WebSocketSession final : public PeerLink, public std::enable_shared_from_this<WebSocketSession> {
  public:
-  WebSocketSession(boost::beast::tcp_stream stream, const ServerLimits& limits, ServerCounters& counters)
-      : stream_(std::move(stream)), limits_(limits), counters_(counters) {}
+  WebSocketSession(boost::beast::tcp_stream stream, const ServerLimits& limits, ServerCounters& counters,
+                   bool is_local)
+      : stream_(std::move(stream)), limits_(limits), counters_(counters), is_local_(is_local) {}
 
   /// Answers the handshake and serves until the connection ends.
   boost::asio::awaitable<void> serve(Request request, const WebSocketEndpoint& endpoint, std::string subprotocol) {
@@ -78,6 +79,7 @@ class WebSocketSession final : public PeerLink, public std::enable_shared_from_t
         stream_.get_executor(), [self = shared_from_this()] { return self->write_queue(); }, asio::detached);
   }
   void show_token() override { has_token_ = true; }
+  [[nodiscard]] bool is_from_here() const override { return is_local_; }
   [[nodiscard]] std::size_t queued_bytes() const override { return queued_bytes_; }
   [[nodiscard]] bool has_token() const { return has_token_; }
   /// Closes the connection without a word, which would have to wait for the client.
@@ -129,6 +131,7 @@ class WebSocketSession final : public PeerLink, public std::enable_shared_from_t
   bool open_ = false;
   bool writing_ = false;
   bool has_token_ = false;
+  bool is_local_;
   std::string close_reason_;
 };
 
@@ -241,7 +244,10 @@ asio::awaitable<void> Server::serve(std::shared_ptr<Client> client) {
         std::optional<Response> refusal;
         const WebSocketEndpoint* endpoint = endpoint_for(request, subprotocol, refusal);
         if (endpoint != nullptr) {
-          client->session = std::make_shared<WebSocketSession>(std::move(stream), limits_, counters_);
+          boost::system::error_code gone;
+          const bool is_local = is_from_here(stream.socket().remote_endpoint(gone).address().to_string(),
+                                             text(request[http::field::host]), text(request[http::field::origin]));
+          client->session = std::make_shared<WebSocketSession>(std::move(stream), limits_, counters_, is_local);
           auto work = client->session->serve(std::move(request), *endpoint, std::move(subprotocol));
           co_await std::move(work);
           co_return;

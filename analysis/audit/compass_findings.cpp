@@ -7,6 +7,7 @@
 #include "analysis/audit/audit.h"
 #include "analysis/audit/heading_errors.h"
 #include "base/angles.h"
+#include "base/rounding.h"
 
 namespace navcal::analysis {
 namespace {
@@ -20,7 +21,9 @@ constexpr double kPair_deg = 5;           ///< between two compasses that are mo
 constexpr double kMilligauss = 10;        ///< of a microtesla
 constexpr std::size_t kMostPoints = 2000;
 
-std::string vector_text(const Eigen::Vector3d& vector, int decimals) {
+std::string vector_text(Eigen::Vector3d vector, int decimals) {
+  // No "-0".
+  for (double& axis : vector) axis = base::rounded(axis, std::pow(10.0, -decimals)) + 0.0;
   return fmt::format("({:.{}f}, {:.{}f}, {:.{}f})", vector.x(), decimals, vector.y(), decimals, vector.z(),
                      decimals);
 }
@@ -33,9 +36,9 @@ AuditPicture field_picture(const std::vector<TurnedSample>& samples, const calib
     measured.emplace_back(reading.time_s, reading.field_body_uT->norm());
     calibrated.emplace_back(reading.time_s, correction(*reading.field_body_uT).norm());
   }
-  return {"Size of the field",
+  return {"Strength of the field: without iron it is the same on all headings",
           "seconds from the beginning",
-          "uT",
+          "strength of the field, uT",
           {{"as measured", measured}, {"calibrated", calibrated}}};
 }
 
@@ -108,7 +111,9 @@ void weigh_against_motor(Finding& iron, const Finding& motor) {
 
 void append_steps(std::vector<Finding>& findings, const AuditedLog& log) {
   const auto* const magnetometer = log.whole.report.find(Calibrator::magnetometer);
-  if (magnetometer == nullptr) return;
+  const bool has_field = std::any_of(log.whole.samples.begin(), log.whole.samples.end(),
+                                     [](const auto& sample) { return sample.reading.field_body_uT.has_value(); });
+  if (magnetometer == nullptr || !has_field) return;
   const Finding step{"compass.step", "Step of the field", log.compass};
   if (log.whole.report.steps.empty()) {
     findings.push_back(step);

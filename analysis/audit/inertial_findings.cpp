@@ -66,7 +66,12 @@ void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibr
     of_scale.put_heading(kTurn_deg * std::abs(scale->value - 1), log.speed_m_s());
     of_scale.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg.", kTurn_deg);
   }
-  findings.push_back(std::move(of_bias));
+  // A bias that shows itself at rest is said once.
+  const bool is_known = std::any_of(findings.begin(), findings.end(), [&](const Finding& at_rest) {
+    return at_rest.channel == of_bias.channel && at_rest.certainty == Certainty::found &&
+           *at_rest.low <= *of_bias.high && *of_bias.low <= *at_rest.high;
+  });
+  if (!is_known) findings.push_back(std::move(of_bias));
   findings.push_back(std::move(of_scale));
 }
 
@@ -202,6 +207,7 @@ Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Cali
     finding.certainty = are_both ? Certainty::found : Certainty::likely;
     finding.todo = "Give the later sensor its latency in the configuration of the estimator.";
     finding.put_heading(std::abs(delay_s) * kRate_deg_s, log.speed_m_s());
+    finding.position_m = std::abs(delay_s) * log.speed_m_s();  // the way in that time, however long the log is
     finding.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg/s.", kRate_deg_s);
   }
   findings.push_back(std::move(finding));
@@ -212,14 +218,16 @@ Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Cali
 
 std::vector<Finding> inertial_findings(const AuditedLog& log) {
   std::vector<Finding> findings;
+  append_at_rest(findings, log);
   append_turned(findings, log, Calibrator::gyro, "rate_z");
   append_turned(findings, log, Calibrator::gyro_b, "yaw_rate_b");
-  append_at_rest(findings, log);
   append_forces(findings, log);
   const Bounded of_compass =
       append_delay(findings, log, Calibrator::compass_delay,
                    {"delay.compass", "Delay of the compass", log.compass}, "compass is later than the gyro", 0.05);
-  append_delay(findings, log, Calibrator::course_delay, {"delay.course", "Delay of the receiver", log.compass},
+  const auto fixes = log.all("north");
+  append_delay(findings, log, Calibrator::course_delay,
+               {"delay.course", "Delay of the receiver", fixes.empty() ? log.compass : fixes.front()->port},
                "course over ground is later than the heading", 0.3, of_compass);
   return findings;
 }

@@ -63,7 +63,10 @@ AuditPicture intervals_picture(const std::vector<double>& time_s) {
     if (i % step == 1 || step == 1) points.emplace_back(time_s[i], interval_s);
     points.back().second = std::max(points.back().second, interval_s);
   }
-  return {"Time between readings", "seconds from the beginning", "s", {{"intervals", std::move(points)}}};
+  return {"Time between readings",
+          "seconds from the beginning",
+          "time between readings, s",
+          {{"intervals", std::move(points)}}};
 }
 
 Finding rhythm_finding(const AuditedStream& stream, const Rhythm& rhythm) {
@@ -87,7 +90,7 @@ Finding rhythm_finding(const AuditedStream& stream, const Rhythm& rhythm) {
     if (stream.kind == "motor") finding.certainty = Certainty::likely;  // commands may be logged when they change
   } else {
     finding.put_count(rate_Hz, "Hz");
-    finding.sentence = fmt::format("{} readings, {:.4g} Hz, jitter {:.2g} ms, longest interval {:.3g} s.",
+    finding.sentence = fmt::format("{} readings, {:.4g} Hz, jitter {:.3f} ms, longest interval {:.3g} s.",
                                    stream.time_s.size(), rate_Hz, 1000 * rhythm.jitter_s, rhythm.longest_s);
     return finding;
   }
@@ -118,7 +121,7 @@ std::vector<Finding> sampling_findings(const AuditedLog& log) {
         share > kRepeated_pc || stream.longest_equal_s > std::max(kFrozen_s, kFrozen_periods * rhythm.mean_s)) {
       Finding& finding = count("sampling.repeated", "Repeated readings", stream.channel, share);
       finding.sentence = fmt::format(
-          "{} of {} readings equal the one before in all axes, for up to {:.2g} s: new values come {:.3g} times a "
+          "{} of {} readings equal the one before in all axes, for up to {:.3g} s: new values come {:.3g} times a "
           "second, not {:.3g}.",
           repeated, vectors, stream.longest_equal_s, (1 - share / 100) / rhythm.mean_s, 1 / rhythm.mean_s);
       finding.todo = share > kRepeated_pc ? "Log at the rate of the sensor, or read the sensor faster."

@@ -84,11 +84,11 @@ class Truth:
 
 def simulated(navcal, repository, folder, case, effects):
     """Makes folder/sim.cap; its truth."""
-    command = [navcal, "simulate", "--seed", str(case["simulator_seed"]), "--seconds", str(SECONDS), "-o",
-               str(folder / "sim.cap"), "--truth", str(folder / "truth.csv")]
+    command = [navcal, "simulate", "--seed", str(case["simulator_seed"]), "--seconds",
+               str(case.get("seconds", SECONDS)), "-o", str(folder / "sim.cap"), "--truth", str(folder / "truth.csv")]
     mission = case["mission"]
-    if mission == "own":
-        (folder / "mission.toml").write_text(MISSION)
+    if mission not in MISSIONS[:-1]:
+        (folder / "mission.toml").write_text(MISSION if mission == "own" else mission)
         mission = str(folder / "mission.toml")
     command += ["--mission", mission]
     if case["vehicle"] != "reference":

@@ -87,12 +87,13 @@ def centi(value):
     return round(100 * value)
 
 
-def write_dataflash(file, log):
+def write_dataflash(file, log, parameters=None):
     flash = DataFlash()
     rows = in_order(log)
     zero_s = rows[0][1].time_s - BOOT_S
     flash.add("MSG", 1000, b"ArduSub V4.1.2")
-    flash.add("PARM", 1000, b"BARO_PRIMARY", 0.0)
+    for name, value in (parameters or {"BARO_PRIMARY": 0.0}).items():
+        flash.add("PARM", 1000, name.encode(), value)
     for port, sample in rows:
         kind, i, values = kind_of(port), number_of(port), sample.values
         us = max(round(1e6 * (sample.time_s - zero_s)), 0)

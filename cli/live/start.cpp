@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "base/interruptible.h"
-#include "base/run_command.h"
+#include "base/spawn.h"
 #include "base/temporary_folder.h"
 #include "cli/live/commands.h"
 #include "cli/live/doctor_checks.h"

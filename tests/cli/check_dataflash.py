@@ -53,6 +53,8 @@ def compass_parameters(data):
             value.setdefault(row["Name"].split(b"\0")[0].decode(), row["Value"])
     found = []
     for number in ("", "2", "3"):
+        if f"COMPASS_DIA{number}_X" not in value:
+            continue
         assert value["COMPASS_MOTCT"] == 0 and value[f"COMPASS_SCALE{number}"] in (0, 1)
         x, y, z = (value[f"COMPASS_DIA{number}_{axis}"] for axis in "XYZ")
         xy, xz, yz = (value[f"COMPASS_ODI{number}_{axis}"] for axis in "XYZ")
@@ -61,9 +63,12 @@ def compass_parameters(data):
 
 
 def expected(data):
-    """{port: [(time in us, {key: value})]} with values of the manual's units, converted by hand."""
+    """{port: [(time in us, {key: value})]} with values of the manual's units, converted by hand; and UTC at the time 0."""
     compasses = compass_parameters(data)
     found = collections.defaultdict(list)
+    # Times of a log without UTC count from 2000-01-01.
+    utc_us = 946684800 * 10**6
+    primary_baro = next(row["Value"] for name, row in records(data) if name == "PARM" and row["Name"].startswith(b"BARO_PRIMARY"))
     for name, row in records(data):
         if name == "IMU":
             port = "imu" if row["I"] == 0 else f"imu{row['I'] + 1}"
@@ -76,19 +81,25 @@ def expected(data):
             field = [(value - offset) / 10 for value, offset in zip(measured, offsets)]
             found[port].append((row["TimeUS"], {"field_body_uT": field}))
         elif name == "ATT":
-            angles = {key: math.radians(row[column] / 100)
-                      for key, column in (("roll_rad", "Roll"), ("pitch_rad", "Pitch"), ("heading_rad", "Yaw"))}
+            angles = {"roll_rad": math.radians(row["Roll"] / 100), "pitch_rad": math.radians(row["Pitch"] / 100),
+                      "heading_rad": math.radians(row["Yaw"] / 100) % (2 * math.pi)}
             found["attitude"].append((row["TimeUS"], angles))
         elif name == "BAT":
             found["battery"].append((row["TimeUS"], {"voltage_V": row["Volt"], "current_A": row["Curr"]}))
-        elif name == "BARO" and row["I"] == 1:
+        elif name == "GPS":
+            fix = {"lat": row["Lat"] / 1e7, "lon": row["Lng"] / 1e7, "speed_m_s": row["Spd"], "course_rad": math.radians(row["GCrs"])}
+            if row["Status"] >= 3 and not any("lat" in values for _, values in found["gps"]):
+                gps_epoch_s, leap_s = 315964800, 18
+                utc_us = (gps_epoch_s - leap_s + 604800 * row["GWk"]) * 10**6 + 1000 * row["GMS"] - row["TimeUS"]
+            found["gps"].append((row["TimeUS"], fix if row["Status"] >= 3 else {}))
+        elif name == "BARO" and row["I"] == primary_baro:
             depth = {"pressure_Pa": row["Press"], "temperature_C": row["Temp"] / 100, "depth_m": -row["Alt"]}
             found["depth"].append((row["TimeUS"], depth))
-    return found
+    return found, utc_us
 
 
 def imported(navcal, file):
-    """{port: [(time in us, line of the replay)]}"""
+    """{port: [(UTC in us, line of the replay)]}"""
     with tempfile.TemporaryDirectory() as folder:
         log = os.path.join(folder, "imported.mcap")
         subprocess.run([navcal, "log", "import", "-o", log, file], check=True, stdout=subprocess.DEVNULL)
@@ -97,8 +108,7 @@ def imported(navcal, file):
     for text in replay.stdout.splitlines():
         line = json.loads(text)
         if "device" in line:
-            # Times of a log without UTC count from 2000-01-01.
-            found[line["device"]].append((round((line["time"] - 946684800) * 1e6), line))
+            found[line["device"]].append((round(line["time"] * 1e6), line))
     return found
 
 
@@ -114,12 +124,13 @@ def main():
         print(f"{file} is not here")
         return 77
     with open(file, "rb") as opened:
-        wanted = expected(opened.read())
+        wanted, utc_us = expected(opened.read())
     found = imported(navcal, file)
     for port, rows in wanted.items():
         assert len(found[port]) == len(rows), (port, len(found[port]), len(rows))
         for (time_us, values), (found_us, line) in zip(rows, found[port]):
-            assert abs(time_us - found_us) <= 1, (port, time_us, found_us)
+            # GPS time has milliseconds.
+            assert abs(utc_us + time_us - found_us) <= (1000 if "gps" in wanted else 1), (port, time_us, found_us - utc_us)
             for key, value in values.items():
                 assert near(line[key], value), (port, time_us, key, value, line[key])
         print(f"{port}: {len(rows)} samples agree")

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/run_command.h"
+#include "base/spawn.h"
 #include "fleet/slurm_run.h"
 #include "fleet/worker_pool.h"
 #include "tests/fleet/fleet_folder.h"

@@ -53,6 +53,19 @@ TEST(Access, OriginOfAnotherSiteIsTold) {
   EXPECT_FALSE(access.knows_origin("http://panel.example", "vehicle:8765"));
 }
 
+TEST(Access, OnlyThisComputerByANameOfItsOwnIsFromHere) {
+  EXPECT_TRUE(is_from_here("127.0.0.1", "localhost:8765", ""));
+  EXPECT_TRUE(is_from_here("127.0.0.1", "127.0.0.1:8765", "http://127.0.0.1:8765"));
+  EXPECT_TRUE(is_from_here("::1", "[::1]:8765", "http://[::1]:8765"));
+  EXPECT_TRUE(is_from_here("::ffff:127.0.0.1", "localhost", "http://localhost"));
+  EXPECT_FALSE(is_from_here("192.168.2.1", "localhost:8765", "")) << "another computer";
+  EXPECT_FALSE(is_from_here("::ffff:192.168.2.1", "localhost:8765", ""));
+  EXPECT_FALSE(is_from_here("127.0.0.1", "vehicle.local:8765", "http://vehicle.local:8765")) << "a proxy";
+  EXPECT_FALSE(is_from_here("127.0.0.1", "127.0.0.1:8765", "https://vehicle.example")) << "a proxy with our name";
+  EXPECT_FALSE(is_from_here("127.0.0.1", "127.0.0.1:8765", "null"));
+  EXPECT_FALSE(is_from_here("127.0.0.1", "", ""));
+}
+
 TEST(TokenFile, ProblemsAreNamedWithTheFile) {
   const navcal::test::TemporaryFolder folder;
   const auto file = folder.path() / "token";

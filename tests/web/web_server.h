@@ -121,7 +121,8 @@ class RawClient {
 class WebSocketClient {
  public:
   WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocols = {},
-                  const std::string& origin = {}, int receive_buffer_bytes = 0)
+                  const std::string& origin = {}, int receive_buffer_bytes = 0,
+                  const std::string& host = "localhost")
       : stream_(context_) {
     auto& socket = stream_.next_layer();
     socket.open(boost::asio::ip::tcp::v4());
@@ -136,7 +137,7 @@ class WebSocketClient {
         }));
     boost::beast::websocket::response_type response;
     // Boost 1.74 leaves the response out where it declines, unless the handshake is asynchronous.
-    stream_.async_handshake(response, "localhost:" + std::to_string(port), target,
+    stream_.async_handshake(response, host + ":" + std::to_string(port), target,
                             [](const boost::system::error_code&) {});
     context_.run();
     status_ = response.result_int();

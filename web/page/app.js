@@ -111,6 +111,8 @@ setInterval(() => {
   drawAges();
   control.draw();
 }, 500);
+// Logs are taken from a browser on the same computer only (web/access.h).
+$('audit-link').hidden = !/^(localhost|127(\.\d+){3}|\[::1\])$/.test(location.hostname);
 startTheme(() => {
   plots?.build();
   map.draw();

@@ -251,6 +251,31 @@ TEST(Audit, ADelayThatNoCalibrationWouldUseIsStillOne) {
   EXPECT_EQ(find(inertial_findings(log), "delay.compass")->certainty, Certainty::cannot_say);
 }
 
+TEST(Audit, ABiasThatShowsAtRestIsSaidOnce) {
+  AuditedLog log;
+  log.channels.push_back(channel("imu", "rate_z", normal(4000, 0.3, 0.05), 0.05));
+  // True rate = measured rate + bias: the gyro shows -bias when the vehicle does not turn.
+  const auto findings_with = [&](double shown_deg_s) {
+    calib::CalibratorReport gyro = delay_of(calib::Calibrator::gyro, 0, 0, true);
+    constexpr double kRadians = 3.14159265358979 / 180;
+    gyro.estimate = {{"bias_rad_s", -shown_deg_s * kRadians, 0.02 * kRadians}, {"scale", 1, 0.001}};
+    log.whole.report.calibrators = {gyro};
+    return inertial_findings(log);
+  };
+  EXPECT_NE(find(findings_with(0.31), "gyro.bias"), nullptr) << "nothing is known at rest";
+  log.rest = {{0, 40}, {120, 200}};
+  EXPECT_EQ(find(findings_with(0.31), "gyro.rest")->certainty, Certainty::found);
+  EXPECT_EQ(find(findings_with(0.31), "gyro.bias"), nullptr);
+  EXPECT_NE(find(findings_with(0.7), "gyro.bias"), nullptr) << "they contradict each other";
+}
+
+TEST(Audit, ACompassWithoutAFieldTellsNoStep) {
+  AuditedLog log;
+  log.compass = "compass";
+  log.whole.report.calibrators = {delay_of(calib::Calibrator::magnetometer, 0, 0, false)};
+  EXPECT_EQ(find(compass_findings(log), "compass.step"), nullptr);
+}
+
 TEST(Audit, WhatFollowsFromWrongRatesIsNotSaid) {
   Finding sign{"convention.sign", "Convention", "rate_z", Certainty::found},
       bias{"gyro.bias", "Bias", "imu.rate_z"};

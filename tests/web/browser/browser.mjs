@@ -7,7 +7,7 @@ import { delay } from "../foxglove/vehicle.mjs";
 
 const ARGUMENTS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync", "--disable-renderer-backgrounding", "--disable-background-timer-throttling",
-  "--disable-backgrounding-occluded-windows", "--hide-scrollbars", "--remote-debugging-pipe"];
+  "--disable-backgrounding-occluded-windows", "--hide-scrollbars", "--remote-debugging-pipe", "--host-resolver-rules=MAP vehicle.local 127.0.0.1"];
 /** Ends a test that hangs; nothing depends on how fast the machine is. */
 export const LIMIT_MS = 120_000;
 const KEYS = { Enter: [13, "\r"], Tab: [9], Escape: [27] };

@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 import { chmodSync, mkdirSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Vehicle, delay, eventually, freePort } from "../foxglove/vehicle.mjs";
+import { auditsLogs } from "./audit.mjs";
 import { Browser, Page, reachByTab } from "./browser.mjs";
 import { startProxy } from "./proxy.mjs";
 
@@ -350,6 +351,7 @@ try {
   await page.close();
   await isReadOnlyWithoutAToken(browser);
   await playsRecordings(browser);
+  await auditsLogs(browser, vehicle, folder, step);
   console.log("the page does what it should");
 } catch (error) {
   console.error(vehicle.diagnostics());

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/run_command.h"
+#include "base/spawn.h"
 
 #include <gtest/gtest.h>
 
 namespace navcal::base {
 namespace {
 
-TEST(RunCommand, ACommandThatIsNotThereIsNoCrash) {
+TEST(Spawn, ACommandThatIsNotThereIsNoCrash) {
   EXPECT_EQ(run_command({"navcal-no-such-program"}).status, 127);
   EXPECT_EQ(run_command({"sh", "-c", "echo out; echo err >&2; exit 3"}).status, 3);
   EXPECT_EQ(run_command({"sh", "-c", "echo out; echo err >&2"}).out, "out\n");
