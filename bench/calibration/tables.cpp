@@ -22,6 +22,7 @@ std::span<const Table> tables() {
             print_magnetometer},
       Table{"magyc", "Magnetometer: the recipe of MAGYC", print_magyc},
       Table{"magnetometer-real", "Magnetometer: recordings of others", print_magnetometer_real},
+      Table{"steps", "Magnetometer: a magnet that comes and goes, and a walk past iron", print_steps},
       Table{"gps", "A..E by GPS (THESIS 11.5)", print_gps},
       Table{"delay", "Delay of the compass", print_delay},
   };
