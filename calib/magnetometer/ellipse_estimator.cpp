@@ -39,14 +39,6 @@ EllipseEstimator::EllipseEstimator(const Parameters& parameters) : parameters_(p
 void EllipseEstimator::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) {
   const Eigen::Vector2d field = levelled(field_body_uT, roll_rad, pitch_rad);
   if (!field.allFinite() || field.cwiseAbs().maxCoeff() > kHighestField_uT) return;
-  if (fit_) {
-    // The fit is judged only where it is accurate; elsewhere its residuals are meaningless.
-    const double known_to = worst_heading_std_rad(fit_->shape, fit_->covariance);
-    if (known_to < parameters_.heading_std_rad) {
-      const double size = (fit_->shape.axes_uT.inverse() * (field - fit_->shape.centre_uT)).norm();
-      held_out_.update(field.norm(), fit_->shape.radius_uT() * (size - 1));
-    }
-  }
   Eigen::Vector4d reading;
   reading << field, vertical_in_level(roll_rad, pitch_rad);
   cells_.add(reading);
@@ -72,26 +64,6 @@ void EllipseEstimator::settle() {
   }
 }
 
-double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const {
-  if (!fit_ || held_out_.weight() < kJudged) return 0;
-  EllipseCells::value_type reading;
-  reading.count = 1;
-  reading.mean.head<2>() = levelled(field_body_uT, roll_rad, pitch_rad);
-  if (!reading.mean.head<2>().allFinite()) return 0;  // nothing is said of a field whose tilt is not known
-  const Eigen::Vector2d u = fit_->shape.foot(reading.mean.head<2>());
-  const Eigen::Vector2d normal = (fit_->shape.axes_uT.inverse() * u).normalized();
-  const EllipseShape::Vector row = EllipseShape::slope(u).transpose() * normal;
-  const double distance = mean_distance_uT(fit_->shape, reading);
-  const double noise_uT = std::max(fit_->residual_uT, held_out_.after_uT());
-  // Every tilt brings a share of the vertical offset, which the ellipse does not determine, into the level. So
-  // a dive is not a change of the field.
-  const double tilted_uT = kVerticalOffset_uT * std::hypot(std::sin(roll_rad), std::sin(pitch_rad));
-  const double variance = noise_uT * noise_uT + row.dot(fit_->covariance * row) +
-                          parameters_.model_error_uT * parameters_.model_error_uT + tilted_uT * tilted_uT;
-  const double z = distance * distance / variance;
-  return std::isfinite(z) ? z : std::numeric_limits<double>::max();
-}
-
 std::optional<MagnetometerEstimate> EllipseEstimator::estimate() const {
   if (!fit_) return std::nullopt;
   MagnetometerEstimate estimate;
@@ -108,8 +80,8 @@ std::optional<MagnetometerEstimate> EllipseEstimator::estimate() const {
 }
 
 void EllipseEstimator::archive(Archive& archive) {
-  archive.tag("ellipse_estimator 2");
-  archive(cells_, fit_, held_out_, samples_);
+  archive.tag("ellipse_estimator 3");
+  archive(cells_, fit_, samples_);
 }
 
 }  // namespace navcal::calib

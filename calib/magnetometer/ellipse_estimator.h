@@ -9,7 +9,6 @@
 #include "calib/judgement.h"
 #include "calib/magnetometer/ellipse_fit.h"
 #include "calib/magnetometer/field_cells.h"
-#include "calib/magnetometer/field_held_out.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
 
 namespace navcal::calib {
@@ -40,8 +39,6 @@ class EllipseEstimator {
   [[nodiscard]] const std::optional<EllipseFit>& fit() const { return fit_; }
   [[nodiscard]] const FieldCells<2, 4>& cells() const { return cells_; }
   [[nodiscard]] Judgement judgement() const;
-  /// Squared distance of a reading from the fit in units of its variance, that of the fit included; 0 without one.
-  [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const;
 
   void archive(Archive& archive);
 
@@ -49,7 +46,6 @@ class EllipseEstimator {
   Parameters parameters_;
   FieldCells<2, 4> cells_;
   std::optional<EllipseFit> fit_;
-  FieldHeldOut held_out_;
   std::uint64_t samples_ = 0;
 };
 

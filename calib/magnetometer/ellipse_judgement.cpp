@@ -93,8 +93,6 @@ Judgement EllipseEstimator::judgement() const {
   judgement.condition = std::numeric_limits<double>::infinity();
   if (!fit_) return judgement.refused("the field has hardly changed", "turn through a full circle");
   judgement.condition = condition_of(fit_->covariance);
-  judgement.held_out_before = held_out_.before_uT();
-  judgement.held_out_after = held_out_.after_uT();
   if (fit_->shape.radius_uT() < kLeastSize * fit_->residual_uT) {
     return judgement.refused("the field changed by no more than its noise", "turn through a full circle");
   }

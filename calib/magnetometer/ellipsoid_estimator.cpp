@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "calib/magnetometer/ellipsoid_judgement.h"
 #include "calib/magnetometer/field_cells.h"
@@ -28,34 +27,12 @@ EllipsoidCells EllipsoidEstimator::cells() const {
   return both;
 }
 
-void EllipsoidEstimator::judge(const Eigen::Vector3d& field_uT) {
-  const Departure d = departure(field_uT);
-  // The fit is judged only in directions where it is accurate; elsewhere its residuals are meaningless.
-  if (d.fit_variance > 0.25 * d.noise_variance) return;
-  held_out_.update(field_uT.norm(), fit_->shape.radius_uT() * d.size);
-}
-
-EllipsoidEstimator::Departure EllipsoidEstimator::departure(const Eigen::Vector3d& field_uT) const {
-  const Eigen::Matrix3d& m = fit_->shape.matrix_per_uT;
-  const Eigen::Vector3d unit = fit_->shape.unit_field(field_uT);
-  const Eigen::Vector3d direction = unit.normalized();
-  EllipsoidShape::Vector row = EllipsoidShape::Vector::Zero();
-  row.head<3>() = -m * direction;
-  row.segment<6>(3) = EllipsoidShape::slope_of_matrix(field_uT - fit_->shape.centre_uT).transpose() * direction;
-  Departure d;
-  d.size = unit.norm() - 1;
-  d.noise_variance = noise_.field_uT * noise_.field_uT * (m * direction).squaredNorm();
-  d.fit_variance = row.dot(fit_->covariance * row);
-  return d;
-}
-
 void EllipsoidEstimator::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) {
   FieldCells<3, 6>::Vector reading;
   const bool tilt_known = std::isfinite(roll_rad) && std::isfinite(pitch_rad);
   reading << field_body_uT, Eigen::Vector3d::Zero();
   if (tilt_known) reading.tail<3>() = down_in_body(roll_rad, pitch_rad);
   if (!reading.allFinite() || field_body_uT.cwiseAbs().maxCoeff() > kHighestField_uT) return;
-  if (fit_) judge(field_body_uT);
   (tilt_known ? cells_ : tiltless_).add(reading);
   blocks_.update(field_body_uT, reading.tail<3>());
   ++samples_;
@@ -117,14 +94,6 @@ void EllipsoidEstimator::settle() {
     fit_ = improve(*fit_, all, noise_, {parameters_.known, parameters_.soft_iron_std});
 }
 
-double EllipsoidEstimator::surprise(const Eigen::Vector3d& field_body_uT) const {
-  if (!fit_ || held_out_.weight() < kJudged) return 0;
-  const Departure d = departure(field_body_uT);
-  const double error = parameters_.model_error * (1 + fit_->shape.centre_uT.norm() / fit_->shape.radius_uT());
-  const double z = d.size * d.size / (d.noise_variance + d.fit_variance + error * error);
-  return std::isfinite(z) ? z : std::numeric_limits<double>::max();
-}
-
 EllipsoidShape::Matrix EllipsoidEstimator::covariance() const {
   return fit_ ? stated_covariance(*fit_, cells(), noise_, 0) : EllipsoidShape::Matrix::Zero();
 }
@@ -150,8 +119,8 @@ std::optional<MagnetometerEstimate> EllipsoidEstimator::estimate() const {
 }
 
 void EllipsoidEstimator::archive(Archive& archive) {
-  archive.tag("ellipsoid_estimator 2");
-  archive(cells_, tiltless_, fit_, held_out_, blocks_, noise_, samples_);
+  archive.tag("ellipsoid_estimator 3");
+  archive(cells_, tiltless_, fit_, blocks_, noise_, samples_);
 }
 
 }  // namespace navcal::calib

@@ -10,7 +10,6 @@
 #include "calib/magnetometer/ellipsoid_fit.h"
 #include "calib/magnetometer/ellipsoid_noise.h"
 #include "calib/magnetometer/field_cells.h"
-#include "calib/magnetometer/field_held_out.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
 
 namespace navcal::calib {
@@ -59,19 +58,10 @@ class EllipsoidEstimator {
   [[nodiscard]] Judgement judgement() const;
   /// Largest angle between the hull's vertical axis and the plumb line among the cells.
   [[nodiscard]] double tilt_seen_rad() const;
-  /// Same as EllipseEstimator::surprise().
-  [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT) const;
 
   void archive(Archive& archive);
 
  private:
-  /// One reading off the fit, relative to the size of the field.
-  struct Departure {
-    double size = 0;
-    double noise_variance = 0, fit_variance = 0;  ///< of size
-  };
-  [[nodiscard]] Departure departure(const Eigen::Vector3d& field_uT) const;
-  void judge(const Eigen::Vector3d& field_uT);
   void begin();
   void iterate();
   [[nodiscard]] EllipsoidNoise believed() const;
@@ -80,7 +70,6 @@ class EllipsoidEstimator {
   FieldCells<3, 6> cells_;
   FieldCells<3, 6> tiltless_;  ///< readings whose tilt is not known: down is zero
   std::optional<EllipsoidFit> fit_;
-  FieldHeldOut held_out_;
   ResidualBlocks blocks_;
   EllipsoidNoise noise_;  ///< by the scatter about the fit
   std::uint64_t samples_ = 0;

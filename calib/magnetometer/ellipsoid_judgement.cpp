@@ -67,8 +67,6 @@ Judgement EllipsoidEstimator::judgement() const {
   if (!fit_)
     return judgement.refused("the field has hardly changed", "turn through a full circle, rolling and pitching");
   judgement.condition = condition_of(fit_->covariance);
-  judgement.held_out_before = held_out_.before_uT();
-  judgement.held_out_after = held_out_.after_uT();
 
   std::vector<double> headings;
   const EllipsoidCells all = cells();

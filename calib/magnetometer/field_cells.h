@@ -14,8 +14,6 @@ namespace navcal::calib {
 
 /// Edge of a cell: readings of one cell are summed, and their spread within it is below the noise of a reading.
 inline constexpr double kCellSize_uT = 0.7;
-/// Readings judged against a fit before that fit may call others outliers.
-inline constexpr double kJudged = 50;
 
 /// Larger than any sum of the Earth's field and a vehicle's iron. Readings above it are left out.
 inline constexpr double kHighestField_uT = 500;
