@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/correction.h"
 #include "calib/suite/gate.h"
 #include "calib/suite/report.h"
 #include "calib/turn/turn_integrator.h"
@@ -78,5 +79,23 @@ class CalibrateHistory final : public pipeline::Sink {
   Estimates estimates_;
   std::uint64_t readings_ = 0, next_look_ = 0, look_every_ = 10;
 };
+
+/// A heading against the integrated gyro. The gyro knows no north, so within a block of turning the mean is taken
+/// away, and what all headings have in common does not show.
+struct HeadingResidual {
+  double heading_rad = 0;    ///< as the compass says it
+  double before_rad = 0;     ///< as the compass says it, less the gyro's
+  double after_rad = 0;      ///< calibrated, less the gyro's
+  double deviation_rad = 0;  ///< `before` set upon the deviation that was found: its mean over the block is that
+                             ///< of the curve
+};
+
+/// Residuals by the gyro of `estimates`; empty without one, or without turns. Blocks turn by half a radian or
+/// more.
+[[nodiscard]] std::vector<HeadingResidual> heading_residuals(const std::vector<TurnedSample>& samples,
+                                                             const calib::Correction& estimates);
+
+[[nodiscard]] double root_mean_square(const std::vector<HeadingResidual>& residuals,
+                                      double HeadingResidual::*which);
 
 }  // namespace navcal::analysis

@@ -71,6 +71,12 @@ pid_t spawn(Program program) {
   return pid;
 }
 
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return status;
+}
+
 CommandOutput run_command(const std::vector<std::string>& command) {
   const Descriptor out = memory_file("out"), err = memory_file("err");
   const auto path_of = [](const Descriptor& file) { return "/proc/self/fd/" + std::to_string(file.get()); };
@@ -81,8 +87,7 @@ CommandOutput run_command(const std::vector<std::string>& command) {
     if (error.code() != std::errc::no_such_file_or_directory) throw;
     return {kNoSuchProgram, {}, command.front() + ": there is no such program"};
   }
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
+  const int status = wait_for(pid);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status), content_of(out),
           content_of(err)};
 }

@@ -21,6 +21,9 @@ struct Program {
 /// std::system_error when it cannot be started.
 [[nodiscard]] pid_t spawn(Program program);
 
+/// Waits for the end of a child; the status of wait().
+int wait_for(pid_t child);
+
 /// Status of a program that is not there, as in a shell.
 inline constexpr int kNoSuchProgram = 127;
 

@@ -2,23 +2,87 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "analysis/decode_describe.h"
-#include "analysis/decode_described.h"
+#include "analysis/decode_fields.h"
+#include "analysis/decode_stream.h"
+#include "analysis/decode_summary.h"
 #include "base/printable.h"
 #include "base/progress.h"
 #include "cli/decode_input.h"
 #include "cli/live/commands.h"
 #include "config/described/description_file.h"
+#include "protocols/described/reading.h"
+#include "protocols/described/scanner.h"
 #include "protocols/device_types.h"
 
 namespace navcal::cli {
 namespace {
+
+/// Decodes streams of a device that a file describes.
+class DescribedDecoder {
+ public:
+  explicit DescribedDecoder(const protocols::described::Description& description);
+
+  /// Runs the frames of a whole stream through `on_frame`. `next` gives the bytes, piece by piece, an empty piece
+  /// at the end.
+  analysis::DecodeSummary decode(const std::function<protocols::Bytes()>& next,
+                                 const std::function<void(const protocols::Frame&)>& on_frame) const;
+  /// Writes the numbers of a frame under the names of their fields, in the units of the description; one that is
+  /// absent is null. A frame with a value that cannot be is marked.
+  void describe(analysis::FieldWriter& fields, const protocols::Frame& frame);
+
+ private:
+  struct Kind {
+    protocols::FrameId id;
+    protocols::described::FrameReader reader;
+    std::vector<std::string> names;
+    std::vector<double> values;
+  };
+
+  std::shared_ptr<const protocols::described::Plan> plan_;
+  std::vector<Kind> kinds_;
+};
+
+DescribedDecoder::DescribedDecoder(const protocols::described::Description& description)
+    : plan_(protocols::described::compile(description)) {
+  for (const auto& kind : description.kinds) {
+    Kind& added =
+        kinds_.emplace_back(Kind{kind.id, protocols::described::FrameReader(kind, description.is_text), {}, {}});
+    for (const auto& field : kind.fields) added.names.push_back(field.name);
+    added.values.resize(kind.fields.size());
+  }
+}
+
+analysis::DecodeSummary DescribedDecoder::decode(
+    const std::function<protocols::Bytes()>& next,
+    const std::function<void(const protocols::Frame&)>& on_frame) const {
+  return analysis::decode_stream(next, on_frame, protocols::described::Scanner(plan_));
+}
+
+void DescribedDecoder::describe(analysis::FieldWriter& fields, const protocols::Frame& frame) {
+  const auto kind =
+      std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& known) { return known.id == frame.id; });
+  if (kind == kinds_.end()) return;
+  const bool is_possible = kind->reader.read(frame.bytes, kind->values);
+  kind->reader.read_plain(frame.bytes, kind->values);
+  for (std::size_t i = 0; i < kind->values.size(); ++i) {
+    if (std::isnan(kind->values[i])) {
+      fields.null(kind->names[i]);
+    } else {
+      fields.number(kind->names[i], kind->values[i]);
+    }
+  }
+  if (!is_possible) analysis::write_out_of_range(fields);
+}
 
 using protocols::Date;
 using protocols::Protocol;
@@ -73,7 +137,7 @@ analysis::DecodeSummary decode(Protocol protocol, DecodeSource& input, analysis:
 
 analysis::DecodeSummary decode_described(const protocols::described::Description& description, DecodeSource& input,
                                          analysis::FieldWriter& fields) {
-  analysis::DescribedDecoder decoder(description);
+  DescribedDecoder decoder(description);
   const auto frames = [&](const auto& next, const auto& on_frame) { return decoder.decode(next, on_frame); };
   return write_frames(Protocol::described, input, fields, frames,
                       [&](const auto& frame) { decoder.describe(fields, frame); });

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -9,10 +12,8 @@
 #include <system_error>
 #include <vector>
 
-#include "analysis/run_folder.h"
 #include "cli/live/commands.h"
 #include "cli/live/result_file.h"
-#include "report/run_diagnosis_json.h"
 #include "runs/diagnosis.h"
 #include "runs/nominal_vehicle.h"
 
@@ -68,6 +69,67 @@ std::string sessions_json(const runs::NominalVehicle& vehicle) {
   return sessions.dump(2) + '\n';
 }
 
+/// Ten thousand times a run of ten seconds.
+constexpr std::uintmax_t kLargestRunFile = 200'000'000;
+
+/// All run files (.csv) of a folder and of those in it, in the order of their paths; the name of a run is that of
+/// its file without the ending.
+std::vector<runs::Run> read_run_folder(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".csv") files.push_back(entry.path());
+  }
+  if (files.empty()) throw runs::BadRun(folder.string() + ": no run files (.csv)");
+  std::ranges::sort(files);
+  std::map<std::string, std::filesystem::path> named;
+  std::vector<runs::Run> read;
+  for (const auto& file : files) {
+    if (std::filesystem::file_size(file) > kLargestRunFile)
+      throw runs::BadRun(file.string() + ": too large for a run");
+    const std::string name = file.stem().string();
+    const auto [known, fresh] = named.emplace(name, file);
+    if (!fresh) {
+      throw runs::BadRun(fmt::format("{}: another run is named so: {}", file.string(), known->second.string()));
+    }
+    read.push_back(runs::read_run(read_file(file), name, file.string()));
+  }
+  return read;
+}
+
+nlohmann::ordered_json candidates_json(const std::vector<runs::Candidate>& candidates) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& candidate : candidates) {
+    list.push_back({{"name", candidate.name}, {"probability", std::round(candidate.probability * 1e4) / 1e4}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json deviations_json(const runs::RunDiagnosis& diagnosis) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < runs::kParameterCount; ++i) {
+    if (std::isnan(diagnosis.deviations[i])) continue;
+    const auto& parameter = runs::kParameters[static_cast<std::size_t>(i)];
+    list.push_back({{"parameter", parameter.name},
+                    {"off", diagnosis.deviations[i]},
+                    {"nominal_std", diagnosis.standard_deviations[i]},
+                    {"unit", parameter.unit}});
+  }
+  return list;
+}
+
+/// One JSON object on one line, with a line feed: what was found in a run or in a pool of runs (docs/runs.md).
+/// `kind` is "run" or "pool".
+std::string run_diagnosis_json(std::string_view kind, std::string_view name, const runs::RunDiagnosis& diagnosis) {
+  nlohmann::ordered_json line;
+  line[std::string(kind)] = name;
+  line["verdict"] = runs::verdict_name(diagnosis.verdict);
+  line["effects"] = candidates_json(diagnosis.effects);
+  line["candidates"] = candidates_json(diagnosis.candidates);
+  line["deviations"] = deviations_json(diagnosis);
+  line["runs_used"] = diagnosis.runs_used;
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
 /// Answers about all runs and pools, one line each.
 class RunAnswers {
  public:
@@ -107,7 +169,7 @@ class RunAnswers {
  private:
   void add(const std::string& kind, const std::string& name, std::span<const runs::Response> responses) {
     const runs::RunDiagnosis diagnosis = runs::diagnose(vehicle_, responses, removed_);
-    lines_ += report::run_diagnosis_json(kind, name, diagnosis);
+    lines_ += run_diagnosis_json(kind, name, diagnosis);
     std::string what = fmt::format("{}: {}", kind, runs::verdict_name(diagnosis.verdict));
     for (const auto& effect : diagnosis.effects) {
       what += fmt::format("{}{}", &effect == diagnosis.effects.data() ? ", " : " or ", effect.name);
@@ -126,11 +188,11 @@ void answer_runs(const ValidateRunsArguments& arguments) {
   expect_results({arguments.nominal, arguments.runs, arguments.pools}, {arguments.json, arguments.sessions});
   const auto* const removed = removed_effect(arguments.removed);
   const RunPools pools = arguments.pools.empty() ? RunPools{} : read_run_pools(arguments.pools);
-  const runs::NominalVehicle vehicle = runs::identify(analysis::read_run_folder(arguments.nominal));
+  const runs::NominalVehicle vehicle = runs::identify(read_run_folder(arguments.nominal));
   tell_remarks("navcal", vehicle.remarks);
   if (!arguments.sessions.empty()) write_result(arguments.sessions, sessions_json(vehicle));
   RunAnswers answers(vehicle, removed);
-  answers.add_runs(analysis::read_run_folder(arguments.runs), arguments.runs);
+  answers.add_runs(read_run_folder(arguments.runs), arguments.runs);
   answers.add_pools(pools, arguments.pools);
   give_answer(arguments.json, answers.lines(), answers.summary());
 }

@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <malloc.h>
+#include <poll.h>
+#include <spdlog/async.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <string_view>
 
+#include "base/printable.h"
 #include "config/load.h"
 #include "daemon/check.h"
 #include "daemon/daemon.h"
-#include "daemon/diagnostics.h"
 #include "daemon/motor_note.h"
 #include "daemon/start_error.h"
 #include "share/manual.h"
@@ -30,6 +40,65 @@ struct Options {
   std::string config;
   std::vector<std::string> overrides;
   bool check = false;
+};
+
+constexpr std::size_t kMessages = 128;
+constexpr int kPatience_ms = 1000;
+
+/// Standard error, which may be a file, a pipe, a terminal or journald's socket.
+class StandardError final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    if (!is_ready(dropped_ > 0 ? 0 : kPatience_ms)) {
+      ++dropped_;
+      return;
+    }
+    if (dropped_ > 0) {
+      write_all(fmt::format("{} messages were dropped: standard error was not read\n", dropped_));
+      dropped_ = 0;
+    }
+    spdlog::memory_buf_t text;
+    formatter_->format(message, text);
+    // One line each, whatever is in it: nobody forges another in the journal.
+    write_all(navcal::base::printable({text.data(), text.size() - 1}) + '\n');
+  }
+  void flush_() override {}
+
+  /// A pipe or socket that says so takes a message without waiting; a file says so always.
+  static bool is_ready(int patience_ms) {
+    pollfd standard_error{STDERR_FILENO, POLLOUT, 0};
+    return poll(&standard_error, 1, patience_ms) > 0 && (standard_error.revents & POLLOUT) != 0;
+  }
+  static void write_all(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) return;  // nowhere to complain
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  std::size_t dropped_ = 0;
+};
+
+/// Writes messages to standard error in a thread of its own, so that a blocked journal, a stopped pager or a
+/// busy disk does not block the loop. A message that cannot be written for a second is dropped and counted; the
+/// count is reported as soon as the reader reads again. (Messages that overrun the queue of 128 within that
+/// second are lost, oldest first, and not counted.)
+class Diagnostics {
+ public:
+  Diagnostics() {
+    spdlog::init_thread_pool(kMessages, 1);
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::async_logger>("navcald", std::make_shared<StandardError>(), spdlog::thread_pool(),
+                                               spdlog::async_overflow_policy::overrun_oldest));
+    // journald adds the time itself and reads the priority from the first characters.
+    spdlog::set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%v" : "%H:%M:%S.%e %l %v");
+  }
+  /// Writes what waits; that takes no longer than a reader who does not read may hold up one message.
+  ~Diagnostics() { spdlog::shutdown(); }
+  Diagnostics(const Diagnostics&) = delete;
+  Diagnostics& operator=(const Diagnostics&) = delete;
 };
 
 /// The exit status when the command line has said it all: help, version, or a mistake.
@@ -96,7 +165,7 @@ int main(int argc, char** argv) {
       std::fputs(navcal::daemon::describe(settings).c_str(), stdout);
       return kStopped;
     }
-    const navcal::daemon::Diagnostics diagnostics;
+    const Diagnostics diagnostics;
     return run(settings, navcal::daemon::second_note(options.config));
   } catch (const navcal::config::Error& error) {
     std::fprintf(stderr, "navcald: %s\n", error.what());

@@ -81,12 +81,8 @@ class EffectOption {
 };
 
 void add_from_file(const std::filesystem::path& file, const config::Layout* layout, sim::EffectSet& set) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string toml{std::istreambuf_iterator<char>(in), {}};
-  if (!in)
-    throw base::Failure(base::Exit::bad_input, file.string() + ": " + std::system_category().message(errno));
   std::vector<config::Problem> problems;
-  sim::add_effects(toml, set, problems, layout);
+  sim::add_effects(config::content_of(file), set, problems, layout);
   std::string text;
   for (const auto& problem : problems) {
     if (!text.empty()) text += '\n';

@@ -27,6 +27,7 @@
 
 #include "base/descriptor.h"
 #include "base/interruptible.h"
+#include "base/spawn.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "fleet/catalogue.h"
@@ -179,7 +180,7 @@ class Worker {
     if (!end_) {
       const int error = errno;
       ::kill(pid_, SIGKILL);
-      (void)reap();
+      (void)base::wait_for(pid_);
       throw std::system_error(error, std::system_category(), "pidfd_open");
     }
   }
@@ -190,7 +191,7 @@ class Worker {
 
   /// Waits for the end, and says what became of the task.
   [[nodiscard]] Attempt attempt(const ResultStore& results) const {
-    const int status = reap();
+    const int status = base::wait_for(pid_);
     const TaskState state = results.state_of(*task_);
     if (state == TaskState::failed) return {state, results.text_of(*task_, state).value_or("")};
     if (state == TaskState::done) return {state, {}};
@@ -229,11 +230,6 @@ class Worker {
     } catch (const std::exception& error) {
       return {TaskState::open, error.what()};
     }
-  }
-  [[nodiscard]] int reap() const {
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) continue;
-    return status;
   }
   [[nodiscard]] std::string words() const {
     std::array<char, PIPE_BUF> text{};

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <libserialport.h>
+#include <linux/serial.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -15,9 +16,47 @@
 
 #include "ports/holder.h"
 #include "ports/raw_mode.h"
+#include "ports/sysfs.h"
 
 namespace navcal::ports {
 namespace {
+
+std::string ask_driver(int fd, std::optional<int>& former_flags) {
+  serial_struct serial{};
+  if (::ioctl(fd, TIOCGSERIAL, &serial) != 0) return "the driver has no low latency mode";
+  const int former = serial.flags;
+  if ((static_cast<unsigned>(former) & ASYNC_LOW_LATENCY) != 0)
+    return "the driver was in low latency mode already";
+  serial.flags |= ASYNC_LOW_LATENCY;
+  if (::ioctl(fd, TIOCSSERIAL, &serial) != 0) return fmt::format("the driver refused: {}", std::strerror(errno));
+  former_flags = former;
+  serial_struct now{};
+  if (::ioctl(fd, TIOCGSERIAL, &now) == 0 && (static_cast<unsigned>(now.flags) & ASYNC_LOW_LATENCY) != 0)
+    return "low latency mode is on";
+  return "asked for, but the driver does not confirm it";
+}
+
+/// Asks the driver (ASYNC_LOW_LATENCY) and, for FTDI adapters, the 16 ms timer in sysfs to hand over bytes at
+/// once. Reports only what it reads back.
+LowLatency ask_low_latency(int fd, const SysfsTty& sysfs) {
+  LowLatency result;
+  result.report = ask_driver(fd, result.former_flags);
+  if (const auto before = sysfs.latency_timer_ms()) {
+    constexpr int kLeast_ms = 1;
+    const bool allowed = *before <= kLeast_ms || sysfs.set_latency_timer_ms(kLeast_ms);
+    result.report += fmt::format("; latency timer {} ms{}", sysfs.latency_timer_ms().value_or(*before),
+                                 allowed ? "" : " (no permission to set it: see the udev rule)");
+  }
+  return result;
+}
+
+void restore_latency(int fd, const LowLatency& asked) {
+  if (!asked.former_flags) return;
+  serial_struct serial{};
+  if (::ioctl(fd, TIOCGSERIAL, &serial) != 0) return;
+  serial.flags = *asked.former_flags;
+  ::ioctl(fd, TIOCSSERIAL, &serial);
+}
 
 /// Slaves of Unix98 pseudo-terminals have these major numbers (Linux, Documentation/admin-guide/devices.txt).
 bool is_pseudo_terminal(int fd) {

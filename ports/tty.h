@@ -4,17 +4,23 @@
 #include <termios.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include "base/descriptor.h"
 #include "ports/finder.h"
 #include "ports/line.h"
-#include "ports/low_latency.h"
 
 struct sp_port;
 
 namespace navcal::ports {
+
+/// Measures that were taken for a port's latency, as text, and the state to restore.
+struct LowLatency {
+  std::string report;
+  std::optional<int> former_flags;  ///< of the driver, to be given back by the end
+};
 
 /// A tty opened exclusively: raw 8N1 at a speed, non-blocking; its former settings are restored at the end.
 /// libserialport opens and sets up real ttys (any speed, not only those of termios). It does not open

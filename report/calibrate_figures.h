@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "analysis/calibrate_history.h"
-#include "analysis/calibrate_residuals.h"
 #include "calib/suite/report.h"
 #include "report/html_page.h"
 

@@ -22,7 +22,7 @@ class Child {
     if (end_ >= 0) return;
     const int error = errno;
     ::kill(-pid_, SIGKILL);
-    reap();
+    (void)reap();
     throw std::system_error(error, std::system_category(), "pidfd_open");
   }
   Child(const Child&) = delete;
@@ -45,12 +45,7 @@ class Child {
     // Not reaped yet, so that the number of the group is still its own.
     ::kill(-pid_, SIGKILL);
   }
-  /// The status of wait().
-  int reap() const {
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) continue;
-    return status;
-  }
+  [[nodiscard]] int reap() const { return base::wait_for(pid_); }
 
  private:
   pid_t pid_;

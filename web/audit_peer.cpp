@@ -139,10 +139,8 @@ class AuditPeer final : public Peer {
     folder_.reset();
   }
   int reap() {
-    int status = 0;
-    while (pid_ > 0 && ::waitpid(pid_, &status, 0) < 0 && errno == EINTR) continue;
-    pid_ = 0;
-    return status;
+    const pid_t child = std::exchange(pid_, 0);
+    return child > 0 ? base::wait_for(child) : 0;
   }
   [[nodiscard]] std::string page() const { return folder_->path() / "page.html"; }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/interruptible.h"
@@ -18,8 +19,10 @@
 #include "web/listener.h"
 #include "web/live_source.h"
 #include "web/log_history.h"
-#include "web/outlets/command_line.h"
+#include "web/outlets/mqtt_topics.h"
+#include "web/outlets/outlet_options.h"
 #include "web/outlets/outlets.h"
+#include "web/outlets/signalk.h"
 #include "web/page.h"
 #include "web/server.h"
 #include "web/site.h"
@@ -41,6 +44,38 @@ struct Options {
   std::vector<std::string> host_names, origins;
   web::OutletOptions outlets{.version = NAVCAL_VERSION};
 };
+
+void add_outlet_options(CLI::App& app, web::OutletOptions& options) {
+  const auto broker_problem = [](const std::string& text) {
+    return web::mqtt_broker(text) ? std::string() : std::string("wants HOST or HOST:PORT");
+  };
+  app.add_option("--vessel", options.vessel,
+                 "name of the vessel in Signal K, urn:mrn:imo:mmsi:NUMBER or urn:mrn:signalk:uuid:UUID; "
+                 "without it one that is derived from this machine")
+      ->check(CLI::Validator(web::problem_of_vessel, "NAME"));
+  app.add_option("--mqtt", options.mqtt.broker,
+                 "publishes to this MQTT broker; the port is 1883 unless it is given")
+      ->check(CLI::Validator(broker_problem, "HOST[:PORT]"));
+  app.add_option("--mqtt-topic-prefix", options.mqtt.prefix, "beginning of all MQTT topics")
+      ->check(CLI::Validator(web::problem_of_prefix, "PREFIX"))
+      ->capture_default_str();
+  app.add_option("--mqtt-login-file", options.mqtt.login_file,
+                 "file with the user of the broker in the first line and the password in the second");
+  app.add_option("--mqtt-rate", options.mqtt.rate_Hz,
+                 "most messages a second of each MQTT topic; events come at once")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  app.add_option("--chrony", options.chrony_socket,
+                 "hands UTC from GPS to chronyd on this machine: path of the socket of its refclock SOCK");
+}
+
+/// Throws CLI::ValidationError for options that do not fit `status`, where navcald is.
+void check_outlet_options(const web::OutletOptions& options, std::string_view status) {
+  const auto host = status.substr(0, status.rfind(':'));
+  const bool is_here = host.empty() || host == "localhost" || host == "[::1]" || host.starts_with("127.");
+  if (!options.chrony_socket.empty() && !is_here)
+    throw CLI::ValidationError("--chrony", "needs a navcald on this machine, by the clock of which it measures");
+}
 
 /// The exit status when the command line has said it all: help, version, or a mistake.
 std::optional<int> parse(int argc, char** argv, Options& options) {
@@ -68,12 +103,12 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--track", options.track,
                  "simulated track for the page: CSV with columns x and y, or lat and lon")
       ->check(CLI::ExistingFile);
-  web::add_outlet_options(app, options.outlets);
+  add_outlet_options(app, options.outlets);
   app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
   navcal::share::add_manual(app);
   try {
     app.parse(argc, argv);
-    web::check_outlet_options(options.outlets, options.status);
+    check_outlet_options(options.outlets, options.status);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kStopped : kUsage;
   }

@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "analysis/import/decompress.h"
-#include "analysis/import/ros_commands.h"
 #include "analysis/import/ros_messages.h"
 #include "analysis/import/wire_reader.h"
+#include "protocols/ros2/cdr_reader.h"
+#include "protocols/ros2/ros_messages.h"
 #include "record/log/checksum.h"
 #include "record/log/mcap_fields.h"
 #include "record/recording.h"
@@ -23,6 +29,87 @@ using record::kMcapMagic;
 using record::kRecordHead;
 using record::McapFields;
 using record::Opcode;
+
+/// Numbers of one message of commands or of joints.
+struct CommandValues {
+  std::int64_t stamp_ns = 0;  ///< of its header; 0: it has none
+  /// By the name of the member as a map has it: "data", "data[1]", "channels[0]", "rudder/position".
+  std::vector<std::pair<std::string, double>> values;
+  /// The numbers are pulses in us, which are samples also without a map.
+  bool are_pulses = false;
+};
+
+namespace ros2 = protocols::ros2;
+
+template <class T>
+void take_list(const std::vector<T>& numbers, std::string_view name, CommandValues& found) {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    found.values.emplace_back(fmt::format("{}[{}]", name, i), static_cast<double>(numbers[i]));
+}
+
+template <class T>
+void take(const ros2::Number<T>& number, CommandValues& found) {
+  found.values.emplace_back("data", static_cast<double>(number.data));
+}
+
+template <class T>
+void take(const ros2::NumberArray<T>& array, CommandValues& found) {
+  take_list(array.data, "data", found);
+}
+
+void take(const ros2::RcOut& outputs, CommandValues& found) {
+  found.are_pulses = true;
+  found.stamp_ns = outputs.header.stamp_ns();
+  take_list(outputs.channels, "channels", found);
+}
+
+void take(const ros2::JointState& joints, CommandValues& found) {
+  found.stamp_ns = joints.header.stamp_ns();
+  const auto take_of = [&](const std::vector<double>& values, std::string_view quantity) {
+    for (std::size_t i = 0; i < std::min(values.size(), joints.name.size()); ++i)
+      found.values.emplace_back(fmt::format("{}/{}", joints.name[i], quantity), values[i]);
+  };
+  take_of(joints.position, "position");
+  take_of(joints.velocity, "velocity");
+  take_of(joints.effort, "effort");
+}
+
+struct CommandType {
+  std::string name;
+  std::optional<CommandValues> (*decode)(std::string_view cdr);
+};
+template <class Message>
+CommandType type_with_commands() {
+  return {ros2::full_name(Message::kType), [](std::string_view cdr) -> std::optional<CommandValues> {
+            const auto message = ros2::decode<Message>(cdr);
+            if (!message) return std::nullopt;
+            CommandValues found;
+            take(*message, found);
+            return found;
+          }};
+}
+
+const CommandType* command_type(std::string_view name) {
+  static const std::array kCommandTypes{type_with_commands<ros2::Number<float>>(),
+                                        type_with_commands<ros2::Number<double>>(),
+                                        type_with_commands<ros2::NumberArray<float>>(),
+                                        type_with_commands<ros2::NumberArray<double>>(),
+                                        type_with_commands<ros2::RcOut>(),
+                                        type_with_commands<ros2::JointState>()};
+  const auto found = std::find_if(kCommandTypes.begin(), kCommandTypes.end(),
+                                  [&](const CommandType& type) { return type.name == name; });
+  return found == kCommandTypes.end() ? nullptr : &*found;
+}
+
+/// Whether messages of this type are read: std_msgs Float32, Float64 and their arrays, mavros_msgs/RCOut,
+/// sensor_msgs/JointState.
+bool has_commands(std::string_view type) { return command_type(type) != nullptr; }
+
+/// nullopt when the message is shorter than its type.
+std::optional<CommandValues> decode_commands(std::string_view type, std::string_view cdr) {
+  const CommandType* const known = command_type(type);
+  return known == nullptr ? std::nullopt : known->decode(cdr);
+}
 
 struct BagChannel {
   ros::Topic topic;
@@ -132,7 +219,7 @@ class RosBag {
     const std::string type = schema == schemas_.end() ? "no type" : schema->second;
     channel.type = encoding == "cdr" ? ros::message_type(type) : nullptr;
     channel.left_as = fmt::format("{} ({}{})", channel.topic.name, type, encoding == "cdr" ? "" : ", not in CDR");
-    if (encoding == "cdr" && ros::has_commands(type)) channel.command_type = type;
+    if (encoding == "cdr" && has_commands(type)) channel.command_type = type;
     if (channel.type != nullptr) channel.topic.instance = instances_[channel.type->kind]++;
     channels_.emplace(id, std::move(channel));
   }
@@ -157,7 +244,7 @@ class RosBag {
   }
 
   void take_commands(const BagChannel& of, std::string_view cdr, std::int64_t log_time_ns) {
-    const auto found = ros::decode_commands(of.command_type, cdr);
+    const auto found = decode_commands(of.command_type, cdr);
     if (!found) return sink_.left(fmt::format("{} (not a whole message of its type)", of.topic.name));
     ImportedSample sample = ros::sample_of(of.topic, PortKind::motor, log_time_ns, found->stamp_ns);
     const auto read = [&](std::string_view member) -> std::optional<double> {
