@@ -62,7 +62,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::samples, describe_samples},
     {Protocol::paroscientific, describe_paroscientific},
     {Protocol::keller, describe_keller},
-    {Protocol::described, nullptr},  // by a description of its own: decode_described.h
+    {Protocol::described, nullptr},  // by a description of its own
     {Protocol::mavlink, describe_mavlink},
 });
 
