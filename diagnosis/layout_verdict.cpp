@@ -208,6 +208,9 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
+/// Beyond the chance of nominal recordings.
+double gap_nats(const NominalBank& bank) { return bank.powers.size() == 1 ? 2 * kGap_nats : kGap_nats; }
+
 /// Log odds that are expected where one parameter has a size and nothing else has changed, nats.
 double expected_gain(const LayoutEvidence& evidence, std::size_t cause, Eigen::Index column, double size) {
   Likelihood changes = evidence.found.changes;
@@ -220,7 +223,7 @@ std::optional<double> least_visible_size(const LayoutEvidence& evidence, std::si
                                          const CauseParameter& parameter) {
   constexpr double kMostTypical = 20;
   constexpr int kHalvings = 12;
-  const double needed_nats = kGap_nats + evidence.bank.chance_nats[cause];
+  const double needed_nats = gap_nats(evidence.bank) + evidence.bank.chance_nats[cause];
   const double sign = parameter.high >= -parameter.low ? 1 : -1;
   double below = 0, size = kMostTypical * parameter.typical;
   if (!evidence.library.causes[cause].is_instrument)
@@ -309,7 +312,7 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   }
   double chance_nats = 0;
   for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, bank.chance_nats[cause]);
-  if (louder.empty() && !is_loud && gain_nats < kGap_nats + chance_nats) {
+  if (louder.empty() && !is_loud && gain_nats < gap_nats(bank) + chance_nats) {
     answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();
     const bool is_faint = gain_nats >= kFaint_nats;

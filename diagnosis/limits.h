@@ -57,6 +57,7 @@ inline constexpr double kNamed_nats = 15;
 inline constexpr double kClass_nats = 5;
 /// A recording has a gap where the best set leads no set by so many nats, beyond the chance of nominal recordings.
 /// A smaller lead, of odds of 20 to 1, is said: simulated nominal recordings of 30 s have up to 13 nats.
+/// Beside one nominal recording twice as many: it tells nothing of the scatter between recordings.
 inline constexpr double kGap_nats = 10, kFaint_nats = 3;
 /// A cause is named only if one of its parameters is so many standard errors from zero.
 inline constexpr double kLeastPresence_sigma = 2;

@@ -177,9 +177,9 @@ TEST(DevicesNew, SaysSoWhenNothingComesBack) {
   std::mt19937_64 random(1);  // NOLINT: the same in every run
   Octets noise(20000);
   for (auto& byte : noise) byte = static_cast<std::uint8_t>(random());
-  EXPECT_THROW((void)guess_description(noise, std::nullopt), Failure);
-  EXPECT_THROW((void)guess_description({}, std::nullopt), Failure);
-  EXPECT_THROW((void)guess_description(protocols::Bytes(noise).first(1), std::nullopt), Failure);
+  EXPECT_THROW((void)guess_description(noise, std::nullopt), base::Failure);
+  EXPECT_THROW((void)guess_description({}, std::nullopt), base::Failure);
+  EXPECT_THROW((void)guess_description(protocols::Bytes(noise).first(1), std::nullopt), base::Failure);
 }
 
 TEST(DevicesNew, AnyCutOfACaptureGivesAFileThatIsReadOrAWord) {
@@ -187,7 +187,7 @@ TEST(DevicesNew, AnyCutOfACaptureGivesAFileThatIsReadOrAWord) {
   for (std::size_t length = 1; length < capture.size(); length += 37) {
     try {
       (void)config::parse_description(guess_description(protocols::Bytes(capture).first(length), 1.0), "guess");
-    } catch (const Failure& failure) {
+    } catch (const base::Failure& failure) {
       EXPECT_NE(std::string(failure.what()), "");
     }
   }

@@ -99,7 +99,7 @@ std::vector<nlohmann::json> decoded(const DeviceType& device, const std::vector<
   const int file = ::memfd_create("decoded", 0);
   EXPECT_GE(file, 0);
   {
-    Output output(file, "memory");
+    base::Output output(file, "memory");
     FieldWriter fields(output, FieldWriter::Format::json);
     bool given = false;
     summary = decode_frames(

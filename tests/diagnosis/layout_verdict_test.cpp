@@ -64,6 +64,14 @@ TEST(LayoutVerdict, NamesACauseThatIsClearAndDescribesTheRecording) {
   EXPECT_TRUE(answer.effects[0].confused_with.empty());
 }
 
+TEST(LayoutVerdict, OneNominalRecordingTellsNothingOfTheScatterBetweenRecordings) {
+  Searched searched;
+  searched.found.sets = {{{0}, 15, 0.99}, {{1}, 2, 0.01}, {{}, 0, 0.002}};
+  EXPECT_NE(searched.verdict().verdict, gap::Verdict::no_gap);
+  searched.bank.powers.resize(1);
+  EXPECT_EQ(searched.verdict().verdict, gap::Verdict::no_gap);
+}
+
 TEST(LayoutVerdict, NoGapSaysWhatWouldHaveStoodOut) {
   Searched searched;
   searched.found.sets = {{{}, 0, 0.99}, {{0}, -6, 0.01}};

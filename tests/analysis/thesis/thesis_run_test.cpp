@@ -111,8 +111,8 @@ TEST(ThesisSettled, CountsFromTheLastTimeThatEitherComesClose) {
 std::string failure_of(const std::filesystem::path& folder) {
   try {
     (void)load_thesis_paths(folder);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.status(), Exit::bad_input);
+  } catch (const base::Failure& failure) {
+    EXPECT_EQ(failure.status(), base::Exit::bad_input);
     return failure.what();
   } catch (const sim::BadPath& bad) {
     return bad.what();
