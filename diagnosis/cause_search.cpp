@@ -8,7 +8,6 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 
 #include "base/statistics.h"
 #include "diagnosis/limits.h"
@@ -219,7 +218,7 @@ CauseSearchResult search_causes(const FittedRecording& recording, const JointPri
   // Causes are looked for where the nominal vehicle is: its tolerances, fitted to a gap, lead astray.
   auto first = recording.fit(prior.mean);
   auto nominal = settled(recording, prior, prior.mean, [&](const Likelihood&) { return no_change; });
-  if (!nominal) throw std::invalid_argument("the layout cannot follow the recording: is it this vehicle's?");
+  if (!nominal) throw cannot_follow(recording.filter().recording());
   if (!first) first = nominal;
   result.none_at = prior.posterior_mean(nominal->linear);
   const double none = prior.of_changes(nominal->linear).value;

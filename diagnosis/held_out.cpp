@@ -7,7 +7,6 @@
 #include <numeric>
 #include <optional>
 #include <random>
-#include <stdexcept>
 
 namespace navcal::diagnosis {
 
@@ -32,7 +31,7 @@ ExplainedRecording held_out(const FittedRecording& recording, const JointPrior& 
   };
   const auto none = changed_by(Eigen::VectorXd::Zero(library.columns())), with = changed_by(change);
   ExplainedRecording explained{-std::numeric_limits<double>::infinity(), {}, {}, {}};
-  if (!none) throw std::invalid_argument("the layout cannot follow a held-out recording");
+  if (!none) throw cannot_follow(recording.filter().recording());
   explained.before = explained.after =
       recording.power(prior.posterior_mean(none->linear)).value_or(RecordingPower{});
   // A vehicle with these effects could not have moved as this one did.

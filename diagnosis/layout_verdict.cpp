@@ -208,7 +208,7 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
-/// Beyond the chance of nominal recordings.
+/// Lead that makes a gap, in addition to what nominal recordings have by chance.
 double gap_nats(const NominalBank& bank) { return bank.powers.size() == 1 ? 2 * kGap_nats : kGap_nats; }
 
 /// Log odds that are expected where one parameter has a size and nothing else has changed, nats.
@@ -218,7 +218,8 @@ double expected_gain(const LayoutEvidence& evidence, std::size_t cause, Eigen::I
   return SetEvidence(std::move(changes), evidence.library).gain({cause});
 }
 
-/// By bisection: the expected log odds grow with the size.
+/// Smallest size of a parameter that would have stood out; nullopt: none would. The expected log odds grow with
+/// the size, so bisection finds it.
 std::optional<double> least_visible_size(const LayoutEvidence& evidence, std::size_t cause,
                                          const CauseParameter& parameter) {
   constexpr double kMostTypical = 20;
@@ -239,7 +240,7 @@ std::optional<double> least_visible_size(const LayoutEvidence& evidence, std::si
   return size;
 }
 
-/// Of each cause, by the parameter of it that shows least; what shows best first.
+/// Smallest visible size of each cause, by the parameter that shows least. The cause that shows best comes first.
 std::vector<gap::LeastVisible> least_visible(const LayoutEvidence& evidence) {
   std::vector<gap::LeastVisible> all;
   const auto strength = [](const gap::LeastVisible& one) {
@@ -261,7 +262,7 @@ std::vector<gap::LeastVisible> least_visible(const LayoutEvidence& evidence) {
   return all;
 }
 
-/// The first of them in a sentence, and how many no size of which would have stood out.
+/// A sentence with the first of them, and with the number of causes that no size would have made visible.
 std::string words_of(std::span<const gap::LeastVisible> least) {
   constexpr std::size_t kMost = 6;
   std::vector<std::string> shown;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <stdexcept>
 
 #include "diagnosis/cause_search.h"
 #include "diagnosis/limits.h"
@@ -90,8 +89,6 @@ void set_tolerances(const AlikeByName& groups, std::span<const Eigen::VectorXd> 
       scatter[group.columns[i]] = tolerance * group.typical[i];
   }
 }
-
-constexpr const char* kCannotFollow = ": the layout cannot follow it: is it this vehicle's?";
 
 /// Sum of the recordings' likelihoods of what they share.
 Likelihood shared_by(std::span<const Likelihood> recordings, const ColumnScatter& scatter) {
@@ -179,7 +176,7 @@ NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
       std::vector<identify::FollowedRecording> of_noise;
       for (std::size_t i = 0; i < std::min(all.size(), kNoiseFrom); ++i) {
         auto pass = followed[i]->follow(at[i]);
-        if (!pass) throw std::invalid_argument(all[i].name + kCannotFollow);
+        if (!pass) throw cannot_follow(all[i]);
         passes.push_back(std::move(*pass));
       }
       for (std::size_t i = 0; i < passes.size(); ++i) of_noise.push_back({&followed[i]->filter(), &passes[i]});
@@ -188,7 +185,7 @@ NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
     for (std::size_t i = 0; i < all.size(); ++i) {
       followed[i]->filter().set_noises(bank.noises);
       auto fit = followed[i]->fit(at[i]);
-      if (!fit) throw std::invalid_argument(all[i].name + kCannotFollow);
+      if (!fit) throw cannot_follow(all[i]);
       linear[i] = std::move(fit->linear);
     }
     // A recording alone may have a gap: it tells nothing of the vehicle without one.

@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <stdexcept>
 
 #include "diagnosis/limits.h"
 
@@ -53,7 +52,9 @@ Eigen::VectorXd JointPrior::posterior_mean(const Likelihood& likelihood) const {
   return mean + root * factor_of(likelihood.information, root).solve(score);
 }
 
-using identify::kNuisances;
+std::invalid_argument cannot_follow(const identify::RecordedMotion& recording) {
+  return std::invalid_argument(recording.name + ": the layout cannot follow it: is it this vehicle's?");
+}
 
 FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrary& library,
                                  const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
@@ -81,7 +82,7 @@ std::optional<identify::FilterPass> FittedRecording::follow(const Eigen::VectorX
 
 void FittedRecording::hold_gains(const Eigen::VectorXd& at) {
   held_ = follow(at);
-  if (!held_) throw std::invalid_argument("the layout cannot follow the recording: is it this vehicle's?");
+  if (!held_) throw cannot_follow(filter_.recording());
 }
 
 std::optional<RecordingFit> FittedRecording::fit(const Eigen::VectorXd& at) const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "diagnosis/causes.h"
@@ -51,6 +52,9 @@ struct RecordingFit {
   Likelihood linear;   ///< of departures from the nominal vehicle (CauseLibrary::columns())
   Eigen::VectorXd at;  ///< where it was linearised
 };
+
+/// The error of a recording that no vehicle of the layout could have made, in words that name it.
+[[nodiscard]] std::invalid_argument cannot_follow(const identify::RecordedMotion& recording);
 
 /// White innovations of a recording.
 struct RecordingPower {

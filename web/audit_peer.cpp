@@ -24,7 +24,7 @@ namespace asio = boost::asio;
 namespace fs = std::filesystem;
 namespace {
 
-/// Of all clients only one has an audit at a time: it holds the turn.
+/// Only the client that holds the turn has an audit.
 using AuditTurn = std::shared_ptr<const char>;
 
 /// Takes a log, audits it in a process of its own, and gives the page. Process and files go with this object.

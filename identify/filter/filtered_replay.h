@@ -93,7 +93,7 @@ class FilteredReplay {
   [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, std::span<const FilterColumn> columns) const {
     return linearise(pass, pass.values, pass.white(), columns);
   }
-  /// Of other values with the gains of the pass. nullopt: with them the vehicle leaves all bounds.
+  /// Linearises other values with the gains of the pass. nullopt: the vehicle leaves all bounds with these values.
   [[nodiscard]] std::optional<FilterLinearised> linearise(const FilterPass& pass, const Eigen::VectorXd& values,
                                                           std::span<const FilterColumn> columns) const;
 
