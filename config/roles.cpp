@@ -6,86 +6,78 @@
 #include "protocols/device_types.h"
 
 namespace navcal::config {
-
-std::string_view name_of(Role role) {
-  constexpr std::array<std::string_view, kRoles.size()> kNames{
-      "heading",  "field", "rates",    "acceleration",    "depth",          "position",
-      "velocity", "shaft", "altitude", "bottom_velocity", "water_velocity", "heading_reference"};
-  return kNames.at(static_cast<std::size_t>(role));
-}
-
 namespace {
 
-bool delivers_role(const protocols::Delivery& delivers, Role role) {
-  switch (role) {
-    case Role::heading:
-    case Role::heading_reference: return delivers.heading;
-    case Role::field: return delivers.field;
-    case Role::rates: return delivers.rates;
-    case Role::acceleration: return delivers.acceleration;
-    case Role::depth: return delivers.depth;
-    case Role::position: return delivers.position;
-    case Role::velocity: return delivers.velocity;
-    case Role::shaft: return delivers.shaft;
-    case Role::altitude: return delivers.altitude;
-    case Role::bottom_velocity: return delivers.bottom_velocity;
-    case Role::water_velocity: break;
-  }
-  return delivers.water_velocity;
-}
+using protocols::Delivery;
+using protocols::described::Meaning;
 
-/// What a device with this description measures.
-protocols::Delivery delivery_of(const protocols::described::Description& description) {
-  const auto sends = [&](protocols::described::Meaning meaning) { return has(description, meaning); };
-  using enum protocols::described::Meaning;
-  protocols::Delivery delivers;
-  delivers.field = sends(field_x);
-  delivers.heading = delivers.field || sends(heading) || sends(heading_true);
-  delivers.rates = sends(rate_x);
-  delivers.acceleration = sends(specific_force_x);
-  delivers.depth = sends(depth) || sends(pressure);
-  delivers.position = sends(latitude);
-  delivers.velocity = sends(speed);
-  delivers.shaft = sends(rpm);
-  delivers.altitude = sends(altitude);
-  delivers.bottom_velocity = sends(bottom_velocity_x) || sends(bottom_velocity_north);
-  delivers.water_velocity = sends(water_velocity_x) || sends(water_velocity_north);
-  return delivers;
+/// A role, and what serves it.
+struct RoleRow {
+  std::string_view name;
+  bool Delivery::*delivers;
+  Role leader;
+  Meaning first, second, third;  ///< a description with one of them delivers it
+  std::string_view description;  ///< of its key in [roles]
+};
+
+const RoleRow& row_of(Role role) {
+  using enum Meaning;
+  using D = Delivery;
+  using R = Role;
+  // In the order of the roles.
+  static constexpr std::array<RoleRow, kRoles.size()> kRows{{
+      {"heading", &D::heading, R::heading, field_x, heading, heading_true,
+       "Port whose compass gives the heading. Empty: the best that delivers, a TCM2 before NMEA."},
+      {"field", &D::field, R::heading, field_x, none, none,
+       "Port whose magnetometer gives the magnetic field, which the calibrators learn from. Empty: as for "
+       "heading."},
+      {"rates", &D::rates, R::rates, rate_x, none, none,
+       "Port whose gyros give the rates. Empty: the first that delivers."},
+      {"acceleration", &D::acceleration, R::rates, specific_force_x, none, none,
+       "Port whose accelerometers give the specific force. Empty: as for rates."},
+      {"depth", &D::depth, R::rates, depth, pressure, none, "Port that gives the depth. Empty: as for rates."},
+      {"position", &D::position, R::position, latitude, none, none,
+       "Port of the receiver that gives the position. Empty: the one with the smaller stated error."},
+      {"velocity", &D::velocity, R::position, speed, none, none,
+       "Port of the receiver that gives the velocity over ground. Empty: as for position."},
+      {"shaft", &D::shaft, R::shaft, rpm, none, none,
+       "Port that gives the speed of the propeller's shaft. Empty: the first that delivers."},
+      {"altitude", &D::altitude, R::altitude, altitude, none, none,
+       "Port of the echo sounder that gives the height above the sea floor. Empty: the first that delivers."},
+      {"bottom_velocity", &D::bottom_velocity, R::bottom_velocity, bottom_velocity_x, bottom_velocity_north, none,
+       "Port of the Doppler log that gives the velocity over the bottom. Empty: the first that delivers."},
+      {"water_velocity", &D::water_velocity, R::bottom_velocity, water_velocity_x, water_velocity_north, none,
+       "Port of the Doppler log that gives the velocity through the water. Empty: as for bottom_velocity."},
+      {"heading_reference", &D::heading, R::heading_reference, field_x, heading, heading_true,
+       "Port that gives a true heading which the compass is calibrated against: a receiver with two antennas, a "
+       "gyro compass, a survey. Empty: none."},
+  }};
+  return kRows.at(static_cast<std::size_t>(role));
 }
 
 }  // namespace
 
+std::string_view name_of(Role role) { return row_of(role).name; }
+
+std::string_view description_of(Role role) { return row_of(role).description; }
+
+Role leader_of(Role role) { return row_of(role).leader; }
+
 bool can_deliver(protocols::Protocol protocol, Role role) {
   const auto& device = protocols::device_type(protocol);
-  const bool is_heading = role == Role::heading || role == Role::heading_reference;
-  return delivers_role(device.delivers, role) || (is_heading && device.heading_if_chosen);
+  const auto delivers = row_of(role).delivers;
+  return device.delivers.*delivers || (delivers == &Delivery::heading && device.heading_if_chosen);
 }
 
 bool can_deliver(const PortSettings& port, Role role) {
-  if (port.described) return delivers_role(delivery_of(*port.described), role);
-  return can_deliver(port.protocol, role);
+  if (!port.described) return can_deliver(port.protocol, role);
+  const auto sends = [&](Meaning meaning) { return meaning != Meaning::none && has(*port.described, meaning); };
+  const RoleRow& row = row_of(role);
+  return sends(row.first) || sends(row.second) || sends(row.third);
 }
 
 bool delivers_always(const PortSettings& port) {
   return port.described || protocols::device_type(port.protocol).delivers_always;
-}
-
-Role leader_of(Role role) {
-  switch (role) {
-    case Role::field: return Role::heading;
-    case Role::acceleration:
-    case Role::depth: return Role::rates;
-    case Role::velocity: return Role::position;
-    case Role::water_velocity: return Role::bottom_velocity;
-    case Role::heading:
-    case Role::rates:
-    case Role::position:
-    case Role::shaft:
-    case Role::altitude:
-    case Role::bottom_velocity:
-    case Role::heading_reference: break;
-  }
-  return role;
 }
 
 }  // namespace navcal::config

@@ -33,6 +33,9 @@ inline constexpr std::array kRoles{Role::heading,         Role::field,          
 /// As in the table [roles] of the configuration: "heading", "field", ..., "bottom_velocity".
 [[nodiscard]] std::string_view name_of(Role role);
 
+/// Of its key in that table.
+[[nodiscard]] std::string_view description_of(Role role);
+
 /// True when a device with that protocol can deliver the role, be it only where [roles] chooses it.
 [[nodiscard]] bool can_deliver(protocols::Protocol protocol, Role role);
 
@@ -53,6 +56,11 @@ struct RoleSettings {
 
   [[nodiscard]] const std::string& port_name(Role role) const {
     return port_names.at(static_cast<std::size_t>(role));
+  }
+  /// The choice for a role, or else for the one that it follows.
+  [[nodiscard]] const std::string& chosen_name(Role role) const {
+    const std::string& own = port_name(role);
+    return own.empty() ? port_name(leader_of(role)) : own;
   }
   bool operator==(const RoleSettings&) const = default;
 };

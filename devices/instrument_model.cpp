@@ -18,8 +18,7 @@ using protocols::Protocol;
 /// none.
 const config::PortSettings* port_of(const config::Settings& settings, Role role,
                                     std::initializer_list<Protocol> protocols) {
-  const std::string& own = settings.roles.port_name(role);
-  const std::string& named = own.empty() ? settings.roles.port_name(config::leader_of(role)) : own;
+  const std::string& named = settings.roles.chosen_name(role);
   for (const Protocol protocol : protocols) {
     const auto serves = [&](const config::PortSettings& port) {
       return port.protocol == protocol && (named.empty() || port.name == named);

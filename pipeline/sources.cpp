@@ -80,14 +80,8 @@ std::optional<double> stated_error(const instruments::Sample& sample) {
   return gps != nullptr ? gps->dop : std::nullopt;
 }
 
-/// The name that [roles] gives for a role, or for the one it follows.
-const std::string& chosen_name(const config::Settings& settings, Role role) {
-  const std::string& own = settings.roles.port_name(role);
-  return own.empty() ? settings.roles.port_name(config::leader_of(role)) : own;
-}
-
 bool is_chosen(const config::Settings& settings, std::uint16_t port, Role role) {
-  const std::string& name = chosen_name(settings, role);
+  const std::string& name = settings.roles.chosen_name(role);
   return !name.empty() && settings.ports[port].name == name;
 }
 

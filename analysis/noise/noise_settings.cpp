@@ -18,11 +18,6 @@ namespace {
 
 constexpr std::string_view kTable = "instruments";
 
-std::string named_port(const config::Settings& settings, config::Role role) {
-  const std::string& own = settings.roles.port_name(role);
-  return own.empty() ? settings.roles.port_name(config::leader_of(role)) : own;
-}
-
 /// The channels of one port for a key.
 std::vector<const RecordedChannel*> channels_for(const NoiseReport& report, std::string_view key,
                                                  const std::string& port) {
@@ -47,7 +42,7 @@ std::optional<double> root_mean_square(const std::vector<const RecordedChannel*>
 
 FoundSetting found_setting(const NoiseReport& report, const config::Settings& settings, const NoiseChannel& row) {
   FoundSetting found{row.setting, {}, std::nullopt};
-  const std::string named = row.role ? named_port(settings, *row.role) : "";
+  const std::string named = row.role ? settings.roles.chosen_name(*row.role) : "";
   for (const auto& port : settings.ports) {
     if (!named.empty() && port.name != named) continue;
     auto channels = channels_for(report, row.setting, port.name);
