@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
+#include <utility>
 
 #include "config/complaints.h"
+#include "config/described/table_reader.h"
 #include "config/document.h"
-#include "config/suggestion.h"
 #include "protocols/utc.h"
 
 namespace navcal::config {
@@ -20,250 +20,190 @@ namespace {
 constexpr std::array<std::string_view, 9> kTimes{"unix_s", "unix_ms", "unix_us", "unix_ns", "s",
                                                  "ms",     "us",      "ns",      "iso8601"};
 
-template <class T>
-const T* value_as(const Entry& entry) {
-  return std::get_if<T>(&entry.value);
-}
-
-std::optional<double> number_of(const Entry& entry) {
-  if (const auto* real = std::get_if<double>(&entry.value)) return *real;
-  if (const auto* whole = std::get_if<std::int64_t>(&entry.value)) return static_cast<double>(*whole);
+std::optional<double> number_of(const Value& value) {
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
   return std::nullopt;
 }
 
-const std::vector<double>& numbers_of(const Entry& entry) { return std::get<std::vector<double>>(entry.value); }
+/// Gives the value of a key, where it is stated, to `takes`, which says whether it can be; `complaint` is for one
+/// that cannot.
+template <class Takes>
+void take(TableReader& table, std::string_view key, std::string complaint, Takes takes) {
+  const Node* const node = table.find(key);
+  if (node == nullptr || takes(node->value)) return;
+  table.complain(key, complaint.empty() ? "cannot be " + words_for(node->value) : std::move(complaint));
+}
 
-/// Reads the tables [column.NAME] of a map, entry by entry.
+/// Takes a value of one type.
+template <class T, class Out>
+auto into(Out& out) {
+  return [&out](const Value& value) {
+    const auto* const given = std::get_if<T>(&value);
+    if (given != nullptr) out = *given;
+    return given != nullptr;
+  };
+}
+
+/// Reads a table [column.NAME] of a map.
 class ColumnReader {
  public:
-  explicit ColumnReader(std::vector<Problem>& problems) : problems_(problems) {}
+  ColumnReader(const Node& node, std::vector<Problem>& problems)
+      : node_(node), problems_(problems), table_(node, problems) {}
 
-  /// An entry whose first key is "column".
-  void take(const Entry& entry) {
-    if (entry.keys.size() == 1) return;
-    Given& given = columns_[entry.keys[1]];
-    if (entry.keys.size() == 2) {
-      given.table = entry;
-    } else {
-      take_key(given, entry);
+  /// nullopt for a column that cannot be; the problems say why.
+  std::optional<CsvColumn> read() {
+    column_.name = node_.key;
+    column_.line = node_.line;
+    take_keys();
+    table_.finish();
+    if (!has_meaning_) return complain("meaning is missing");
+    const auto quantity = column_.meaning.quantity;
+    ColumnUnit unit;
+    if (quantity == protocols::described::Meaning::sensor) {
+      if (!name_sensor()) return std::nullopt;
+    } else if (unit_) {
+      const auto found = column_unit(quantity, *unit_);
+      if (!found)
+        return complain("unit", fmt::format("one of {} is expected", fmt::join(column_units(quantity), ", ")));
+      unit = *found;
     }
-  }
-
-  /// The columns in the order of their names. A map without any is a problem.
-  std::vector<CsvColumn> finish() {
-    if (columns_.empty()) problems_.push_back({1, "column", "a map has a [column.NAME] or more"});
-    std::vector<CsvColumn> columns;
-    for (auto& [name, given] : columns_) finish_column(name, given, columns);
-    return columns;
+    if (from_ || to_) return draw_curve(unit);
+    column_.factor = scale_.value_or(1) * unit.factor;
+    column_.offset = offset_.value_or(0) * unit.factor + unit.offset;
+    return column_;
   }
 
  private:
-  struct Given {
-    Entry table;
-    CsvColumn column;
-    bool has_meaning = false;
-    std::optional<Entry> unit, line, from, to;  ///< line: scale or offset, the last of them
-    double scale = 1;
-    double offset = 0;
-  };
-
-  void take_key(Given& given, const Entry& entry) {
-    const std::string& key = entry.keys[2];
-    const auto* text = std::get_if<std::string>(&entry.value);
-    const auto number = number_of(entry);
-    const bool is_list = std::holds_alternative<std::vector<double>>(entry.value);
-    if (key == "meaning") {
-      const auto* const found = text == nullptr ? nullptr : column_meaning_named(*text);
-      if (found == nullptr) {
-        std::vector<std::string_view> names;
-        for (const ColumnMeaning& meaning : column_meanings()) names.push_back(meaning.name);
-        return complain(entry, fmt::format("one of {} is expected", fmt::join(names, ", ")));
-      }
-      given.column.meaning = *found;
-      given.has_meaning = true;
-    } else if (key == "unit" && text != nullptr) {
-      given.unit = entry;
-    } else if (key == "quantity" && text != nullptr) {
-      given.column.quantity = *text;
-    } else if (key == "scale" && number && *number != 0) {
-      given.scale = *number;
-      given.line = entry;
-    } else if (key == "offset" && number) {
-      given.offset = *number;
-      given.line = entry;
-    } else if (key == "from" && is_list) {
-      given.from = entry;
-    } else if (key == "to" && is_list) {
-      given.to = entry;
-    } else if (key == "instance" && std::holds_alternative<std::int64_t>(entry.value) && *number >= 1 &&
-               *number <= 9) {
-      given.column.instance = static_cast<int>(*number) - 1;
-    } else {
-      const std::vector<std::string> known{"meaning", "unit", "quantity", "scale",
-                                           "offset",  "from", "to",       "instance"};
-      const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
-      complain(entry, is_known ? "cannot be " + words_for(entry.value) : "unknown key" + suggestion(key, known));
-    }
+  void take_keys() {
+    std::vector<std::string_view> names;
+    for (const ColumnMeaning& meaning : column_meanings()) names.push_back(meaning.name);
+    take(table_, "meaning", fmt::format("one of {} is expected", fmt::join(names, ", ")),
+         [this](const Value& value) {
+           const auto* const text = std::get_if<std::string>(&value);
+           const auto* const found = text == nullptr ? nullptr : column_meaning_named(*text);
+           has_meaning_ = found != nullptr;
+           if (has_meaning_) column_.meaning = *found;
+           return has_meaning_;
+         });
+    take(table_, "unit", "", into<std::string>(unit_));
+    take(table_, "quantity", "", into<std::string>(column_.quantity));
+    take(table_, "scale", "", [this](const Value& value) { return (scale_ = number_of(value)).value_or(0) != 0; });
+    take(table_, "offset", "", [this](const Value& value) { return (offset_ = number_of(value)).has_value(); });
+    take(table_, "from", "", into<std::vector<double>>(from_));
+    take(table_, "to", "", into<std::vector<double>>(to_));
+    take(table_, "instance", "", [this](const Value& value) {
+      const auto* const number = std::get_if<std::int64_t>(&value);
+      const bool fits = number != nullptr && *number >= 1 && *number <= 9;
+      if (fits) column_.instance = static_cast<int>(*number) - 1;
+      return fits;
+    });
   }
 
-  void finish_column(const std::string& name, Given& given, std::vector<CsvColumn>& columns) {
-    if (given.table.keys.empty()) given.table.keys = {"column", name};
-    if (!given.has_meaning) return complain(given.table, "meaning is missing");
-    const auto quantity = given.column.meaning.quantity;
-    CsvColumn column = given.column;
-    column.name = name;
-    column.line = given.table.line;
-    ColumnUnit unit;
-    if (quantity == protocols::described::Meaning::sensor) {
-      if (!name_sensor(column, given)) return;
-    } else if (given.unit) {
-      const auto found = column_unit(quantity, std::get<std::string>(given.unit->value));
-      if (!found)
-        return complain(*given.unit,
-                        fmt::format("one of {} is expected", fmt::join(column_units(quantity), ", ")));
-      unit = *found;
-    }
-    if (given.from || given.to) {
-      if (!draw_curve(column, given, unit)) return;
-    } else {
-      column.factor = given.scale * unit.factor;
-      column.offset = given.offset * unit.factor + unit.offset;
-    }
-    columns.push_back(std::move(column));
-  }
-
-  bool name_sensor(CsvColumn& column, const Given& given) {
-    if (column.quantity.empty()) column.quantity = column.name;
-    if (given.unit) column.unit = std::get<std::string>(given.unit->value);
+  bool name_sensor() {
+    if (column_.quantity.empty()) column_.quantity = column_.name;
+    column_.unit = unit_.value_or("");
     // A sample keeps this much of them (instruments/samples.h).
     constexpr std::size_t kLongestQuantity = 24, kLongestUnit = 16;
-    if (column.quantity.size() <= kLongestQuantity && column.unit.size() <= kLongestUnit) return true;
-    complain(given.table,
-             fmt::format("quantity has at most {} bytes, unit at most {}", kLongestQuantity, kLongestUnit));
+    if (column_.quantity.size() <= kLongestQuantity && column_.unit.size() <= kLongestUnit) return true;
+    complain(fmt::format("quantity has at most {} bytes, unit at most {}", kLongestQuantity, kLongestUnit));
     return false;
   }
 
-  bool draw_curve(CsvColumn& column, const Given& given, const ColumnUnit& unit) {
-    if (!given.from || !given.to) {
-      complain(given.table, given.from ? "\"from\" needs \"to\"" : "\"to\" needs \"from\"");
-      return false;
-    }
-    if (given.line) {
-      complain(*given.line, "\"from\" and \"to\" take the place of scale and offset");
-      return false;
-    }
-    const auto& from = numbers_of(*given.from);
-    const auto& to = numbers_of(*given.to);
-    if (from.size() < 2 || std::adjacent_find(from.begin(), from.end(), std::greater_equal<>()) != from.end()) {
-      complain(*given.from, "two numbers or more are expected, each larger than the one before");
-      return false;
-    }
-    if (to.size() != from.size()) {
-      complain(*given.to, fmt::format("as many numbers as \"from\" has are expected: {}", from.size()));
-      return false;
-    }
-    for (std::size_t i = 0; i < from.size(); ++i)
-      column.curve.push_back({from[i], to[i] * unit.factor + unit.offset});
+  std::optional<CsvColumn> draw_curve(const ColumnUnit& unit) {
+    if (!from_ || !to_) return complain(from_ ? "\"from\" needs \"to\"" : "\"to\" needs \"from\"");
+    if (scale_ || offset_)
+      return complain(offset_ ? "offset" : "scale", "\"from\" and \"to\" take the place of scale and offset");
+    if (from_->size() < 2 ||
+        std::adjacent_find(from_->begin(), from_->end(), std::greater_equal<>()) != from_->end())
+      return complain("from", "two numbers or more are expected, each larger than the one before");
+    if (to_->size() != from_->size())
+      return complain("to", fmt::format("as many numbers as \"from\" has are expected: {}", from_->size()));
+    for (std::size_t i = 0; i < from_->size(); ++i)
+      column_.curve.push_back({(*from_)[i], (*to_)[i] * unit.factor + unit.offset});
+    return column_;
+  }
+
+  /// Of the table as a whole.
+  std::nullopt_t complain(std::string message) {
+    problems_.push_back({node_.line, node_.name, std::move(message)});
+    return std::nullopt;
+  }
+  std::nullopt_t complain(std::string_view key, std::string message) {
+    table_.complain(key, std::move(message));
+    return std::nullopt;
+  }
+
+  const Node& node_;
+  std::vector<Problem>& problems_;
+  TableReader table_;
+  CsvColumn column_;
+  bool has_meaning_ = false;
+  std::optional<std::string> unit_;
+  std::optional<std::vector<double>> from_, to_;
+  std::optional<double> scale_, offset_;
+};
+
+/// The columns of a map in the order of their names. A map without any is a problem.
+std::vector<CsvColumn> read_columns(TableReader& map, std::vector<Problem>& problems) {
+  const Node* const tables = map.find("column");
+  std::vector<CsvColumn> columns;
+  if (tables == nullptr || tables->is_list || tables->children.empty())
+    problems.push_back({1, "column", "a map has a [column.NAME] or more"});
+  if (tables == nullptr || tables->is_list) return columns;
+  for (const Node& table : tables->children) {
+    if (auto column = ColumnReader(table, problems).read()) columns.push_back(std::move(*column));
+  }
+  std::sort(columns.begin(), columns.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return columns;
+}
+
+void read_layout(TableReader& file, CsvMap& map) {
+  take(file, "delimiter", "one character or \"tab\" is expected", [&](const Value& value) {
+    const auto* const text = std::get_if<std::string>(&value);
+    const bool is_tab = text != nullptr && *text == "tab";
+    if (text == nullptr || (!is_tab && text->size() != 1)) return false;
+    map.delimiter = is_tab ? '\t' : text->front();
     return true;
-  }
+  });
+  take(file, "decimal", "\".\" or \",\" is expected", [&](const Value& value) {
+    map.decimal_comma = value == Value(std::string(","));
+    return map.decimal_comma || value == Value(std::string("."));
+  });
+  take(file, "comment", "a text is expected", into<std::string>(map.comment));
+  take(file, "header", "a line number is expected, 0 for none", [&](const Value& value) {
+    const auto* const line = std::get_if<std::int64_t>(&value);
+    if (line == nullptr || *line < 0 || *line > 10'000) return false;
+    map.header = static_cast<int>(*line);
+    return true;
+  });
+}
 
-  void complain(const Entry& entry, std::string message) {
-    problems_.push_back({entry.line, entry.name(), std::move(message)});
-  }
-
-  std::vector<Problem>& problems_;
-  std::map<std::string, Given> columns_;
-};
-
-/// Reads the entries of a map one after the other.
-class MapReader {
- public:
-  explicit MapReader(std::vector<Problem>& problems) : problems_(problems), columns_(problems) {}
-
-  void take(const Entry& entry) {
-    const std::string& head = entry.keys.front();
-    if (head == "time") return take_time(entry);
-    if (head == "column") return columns_.take(entry);
-    if (entry.keys.size() > 1 || value_as<Table>(entry) != nullptr)
-      return complain(entry, "unknown table; known: time, column");
-    take_layout(entry);
-  }
-
-  CsvMap finish() {
-    if (map_.time_columns.empty()) problems_.push_back({1, "time.column", "is missing"});
-    map_.columns = columns_.finish();
-    return std::move(map_);
-  }
-
- private:
-  void take_layout(const Entry& entry) {
-    const std::string& key = entry.keys.front();
-    const auto* text = value_as<std::string>(entry);
-    if (key == "delimiter") {
-      if (text != nullptr && *text == "tab") {
-        map_.delimiter = '\t';
-      } else if (text != nullptr && text->size() == 1) {
-        map_.delimiter = text->front();
-      } else {
-        complain(entry, "one character or \"tab\" is expected");
-      }
-    } else if (key == "decimal") {
-      if (text == nullptr || (*text != "." && *text != ",")) return complain(entry, "\".\" or \",\" is expected");
-      map_.decimal_comma = *text == ",";
-    } else if (key == "comment") {
-      if (text == nullptr) return complain(entry, "a text is expected");
-      map_.comment = *text;
-    } else if (key == "header") {
-      const auto* line = value_as<std::int64_t>(entry);
-      if (line == nullptr || *line < 0 || *line > 10'000)
-        return complain(entry, "a line number is expected, 0 for none");
-      map_.header = static_cast<int>(*line);
+void read_time(TableReader& table, CsvMap& map) {
+  take(table, "column", "the name of a column is expected, or a list of names", [&](const Value& value) {
+    if (const auto* const name = std::get_if<std::string>(&value)) map.time_columns = {*name};
+    if (const auto* const names = std::get_if<std::vector<std::string>>(&value)) map.time_columns = *names;
+    return !map.time_columns.empty();
+  });
+  if (const auto text = table.text("format")) {
+    const auto found = std::find(kTimes.begin(), kTimes.end(), *text);
+    if (found != kTimes.end()) {
+      map.time = static_cast<CsvTime>(found - kTimes.begin());
+    } else if (text->find('%') != std::string::npos) {
+      map.time = CsvTime::pattern;
+      map.pattern = *text;
     } else {
-      complain(entry, "unknown key" + suggestion(key, {"delimiter", "decimal", "comment", "header"}));
+      table.complain("format", fmt::format("one of {} is expected, or a pattern such as \"%d/%m/%Y %H:%M:%S\"",
+                                           fmt::join(kTimes, ", ")));
     }
   }
-
-  void take_time(const Entry& entry) {
-    if (entry.keys.size() == 1) return;
-    const std::string& key = entry.keys[1];
-    const auto* text = value_as<std::string>(entry);
-    if (key == "column") {
-      if (text != nullptr) {
-        map_.time_columns = {*text};
-      } else if (const auto* names = value_as<std::vector<std::string>>(entry);
-                 names != nullptr && !names->empty()) {
-        map_.time_columns = *names;
-      } else {
-        complain(entry, "the name of a column is expected, or a list of names");
-      }
-    } else if (key == "format") {
-      if (text == nullptr) return complain(entry, "a text is expected");
-      const auto found = std::find(kTimes.begin(), kTimes.end(), *text);
-      if (found != kTimes.end()) {
-        map_.time = static_cast<CsvTime>(found - kTimes.begin());
-      } else if (text->find('%') != std::string::npos) {
-        map_.time = CsvTime::pattern;
-        map_.pattern = *text;
-      } else {
-        complain(entry, fmt::format("one of {} is expected, or a pattern such as \"%d/%m/%Y %H:%M:%S\"",
-                                    fmt::join(kTimes, ", ")));
-      }
-    } else if (key == "start") {
-      map_.start_ns = text == nullptr ? std::nullopt : parse_iso_time(*text);
-      if (!map_.start_ns) complain(entry, "a time such as \"2024-05-01T12:00:00Z\" is expected");
-    } else {
-      complain(entry, "unknown key" + suggestion(key, {"column", "format", "start"}));
-    }
-  }
-
-  void complain(const Entry& entry, std::string message) {
-    problems_.push_back({entry.line, entry.name(), std::move(message)});
-  }
-
-  std::vector<Problem>& problems_;
-  CsvMap map_;
-  ColumnReader columns_;
-};
+  take(table, "start", "a time such as \"2024-05-01T12:00:00Z\" is expected", [&](const Value& value) {
+    const auto* const text = std::get_if<std::string>(&value);
+    map.start_ns = text == nullptr ? std::nullopt : parse_iso_time(*text);
+    return map.start_ns.has_value();
+  });
+  table.finish();
+}
 
 std::optional<int> digits(std::string_view text, std::size_t first, std::size_t count) {
   if (text.size() < first + count) return std::nullopt;
@@ -332,29 +272,37 @@ std::optional<std::int64_t> parse_iso_time(std::string_view text) {
 
 CsvMap parse_csv_map(std::string_view toml, std::string_view name) {
   std::vector<Problem> problems;
-  const auto entries = read_document(toml, problems);
-  if (!problems.empty()) refuse(problems, name);
-  MapReader reader(problems);
-  for (const Entry& entry : entries) reader.take(entry);
-  CsvMap map = reader.finish();
+  const Node root = read_tree(toml, problems);
+  refuse(problems, name);
+  CsvMap map;
+  TableReader file(root, problems);
+  read_layout(file, map);
+  if (const Node* const time = file.find("time")) {
+    TableReader table(*time, problems);
+    read_time(table, map);
+  }
+  if (map.time_columns.empty()) problems.push_back({1, "time.column", "is missing"});
+  map.columns = read_columns(file, problems);
+  file.finish();
   refuse(std::move(problems), name);
   return map;
 }
 
 ChannelMap parse_channel_map(std::string_view toml, std::string_view name) {
   std::vector<Problem> problems;
-  const auto entries = read_document(toml, problems);
-  if (!problems.empty()) refuse(problems, name);
-  ColumnReader reader(problems);
-  for (const Entry& entry : entries) {
-    if (entry.keys.front() == "column") {
-      reader.take(entry);
-    } else {
-      problems.push_back(
-          {entry.line, entry.name(), "only tables [column.NAME] are known: the log says the rest itself"});
-    }
+  const Node root = read_tree(toml, problems);
+  refuse(problems, name);
+  TableReader file(root, problems);
+  const auto pass_over = [&](const Node& node) {
+    problems.push_back(
+        {node.line, node.name, "only tables [column.NAME] are known: the log says the rest itself"});
+  };
+  for (const Node& child : root.children) {
+    if (child.key == "column") continue;
+    pass_over(child);
+    for (const Node& below : child.children) pass_over(below);
   }
-  ChannelMap map{std::string(name), reader.finish()};
+  ChannelMap map{std::string(name), read_columns(file, problems)};
   std::vector<std::string_view> motor_names;
   for (const ColumnMeaning& meaning : column_meanings()) {
     if (meaning.is_motor()) motor_names.push_back(meaning.name);
