@@ -9,21 +9,31 @@ namespace {
 using M = Mission;
 using Step = MissionStep;
 
+/// A key that a step need not have. `InFile` is its type in the file.
+template <class InFile, class T>
+Option<Step> step_option(OptionInfo info, std::optional<T> Step::*value) {
+  const Unit unit = info.unit;
+  const auto get = [value, unit](const Step& step) {
+    const auto& given = step.*value;
+    if (!given) return Value(Unsupported{"nothing"});
+    return Value(static_cast<InFile>(*given * unit.denominator / unit.numerator));
+  };
+  const auto set = [value, unit](Step& step, const Value& given) {
+    step.*value = to_inside<T>(static_cast<double>(std::get<InFile>(given)), unit);
+  };
+  return {std::move(info), get, set};
+}
+
 Option<Step> number(std::string_view key, std::optional<double> Step::*value, Unit unit, double low, double high,
                     std::string_view description) {
-  OptionInfo info{
-      .key = key, .description = description, .kind = Kind::real, .unit = unit, .low = low, .high = high};
-  return {std::move(info), {}, [value, unit](Step& step, const Value& given) {
-            step.*value = to_inside<double>(std::get<double>(given), unit);
-          }};
+  return step_option<double>(
+      {.key = key, .description = description, .kind = Kind::real, .unit = unit, .low = low, .high = high}, value);
 }
 
 Option<Step> count(std::string_view key, std::optional<int> Step::*value, double low, double high,
                    std::string_view description) {
-  OptionInfo info{.key = key, .description = description, .kind = Kind::integer, .low = low, .high = high};
-  return {std::move(info), {}, [value](Step& step, const Value& given) {
-            step.*value = static_cast<int>(std::get<std::int64_t>(given));
-          }};
+  return step_option<std::int64_t>(
+      {.key = key, .description = description, .kind = Kind::integer, .low = low, .high = high}, value);
 }
 
 std::vector<Option<M>> make_mission_options() {
@@ -52,12 +62,9 @@ std::vector<Option<Step>> make_step_options() {
       number("heading_deg", &Step::heading_rad, kDegrees, -360, 360, "True heading, reached by the shorter turn."),
       number("by_deg", &Step::by_rad, kDegrees, -36000, 36000, "Change of heading, to starboard."),
       number("turns", &Step::turns, kNoUnit, -1000, 1000, "Turns, to starboard."),
+      count("stations", &Step::stations, 2, 360, "Number of headings, evenly around the circle."),
       number("rate_deg_s", &Step::rate_rad_s, kDegreesPerSecond, 0.1, 90, "Rate of turn."),
       number("depth_m", &Step::depth_m, kMetres, 0, 1000, "Depth."),
-      number("shaft_rpm", &Step::shaft_rps, kRpm, 0, 60000, "Shaft speed, from now on."),
-      number("speed_m_s", &Step::speed_m_s, kMetresPerSecond, 0.05, 10, "Speed to be held, from now on."),
-      number("seconds", &Step::seconds, kSeconds, 0.1, 1e6, "How long."),
-      number("metres", &Step::metres, kMetres, 0.1, 1e6, "How far."),
       number("rudder_deg", &Step::rudder_rad, kDegrees, -50, 50, "Rudder, positive to starboard."),
       number("elevator_deg", &Step::elevator_rad, kDegrees, -50, 50, "Elevator, positive nose up."),
       number("fin1_deg", &Step::fin1_rad, kDegrees, -80, 80, "Angle of the fin."),
@@ -66,8 +73,11 @@ std::vector<Option<Step>> make_step_options() {
       number("reach_deg", &Step::reach_rad, kDegrees, 1, 170, "Change of the heading to either side."),
       number("amplitude_deg", &Step::amplitude_rad, kDegrees, -50, 50,
              "Deflection of the control surface from its position."),
+      number("shaft_rpm", &Step::shaft_rps, kRpm, 0, 60000, "Shaft speed, from now on."),
+      number("speed_m_s", &Step::speed_m_s, kMetresPerSecond, 0.05, 10, "Speed to be held, from now on."),
+      number("seconds", &Step::seconds, kSeconds, 0.1, 1e6, "How long."),
+      number("metres", &Step::metres, kMetres, 0.1, 1e6, "How far."),
       count("times", &Step::times, 1, 10000, "How often."),
-      count("stations", &Step::stations, 2, 360, "Number of headings, evenly around the circle."),
   };
 }
 

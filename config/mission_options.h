@@ -12,7 +12,8 @@ namespace navcal::config {
 /// Options of the tables [mission] and [start].
 [[nodiscard]] const std::vector<Option<Mission>>& mission_options();
 
-/// Options of a [[step]], all kinds together; the first is `do`.
+/// Options of a [[step]], all kinds together, in the order in which a file has them; the first is `do`. What a
+/// step does not say is Unsupported.
 [[nodiscard]] const std::vector<Option<MissionStep>>& step_options();
 
 /// Keys that a kind of step takes.
