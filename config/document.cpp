@@ -117,28 +117,6 @@ Value value_of(const toml::node& node) {
   }
 }
 
-void collect(const toml::table& table, std::vector<std::string>& keys, std::vector<Entry>& entries) {
-  for (const auto& [key, node] : table) {
-    keys.emplace_back(key.str());
-    entries.push_back({keys, value_of(node), static_cast<unsigned>(key.source().begin.line), std::nullopt});
-    if (node.is_table() && keys.size() < kMaxDepth) collect(*node.as_table(), keys, entries);
-    keys.pop_back();
-  }
-}
-
-/// Takes [[list]] out of the document.
-void collect_list(std::string_view list, toml::table& document, std::vector<Entry>& entries) {
-  const toml::array* tables = document.get_as<toml::array>(list);
-  if (tables == nullptr || !tables->is_homogeneous<toml::table>()) return;
-  std::size_t number = 0;
-  for (const toml::node& element : *tables) {
-    std::vector<std::string> keys{fmt::format("{}[{}]", list, ++number)};
-    entries.push_back({keys, Table{}, static_cast<unsigned>(element.source().begin.line), std::nullopt});
-    collect(*element.as_table(), keys, entries);
-  }
-  document.erase(list);
-}
-
 // Depth of the deepest key that is known, frame[].field[].KEY, and one more, so that what lies there is named.
 constexpr std::size_t kMaxTreeDepth = 6;
 
@@ -180,6 +158,17 @@ void grow(const toml::table& table, std::size_t depth, Node& node) {
                    [](const Node& a, const Node& b) { return a.line < b.line; });
 }
 
+/// Adds a value or a table, with what lies in it, to the entries; `keys` are those of the tables around it.
+void collect(const Node& node, const std::string& key, std::vector<std::string>& keys,
+             std::vector<Entry>& entries) {
+  keys.push_back(key);
+  entries.push_back({keys, node.is_list ? Value(Unsupported{"an array"}) : node.value, node.line, std::nullopt});
+  if (!node.is_list && keys.size() < kMaxDepth) {
+    for (const Node& child : node.children) collect(child, child.key, keys, entries);
+  }
+  keys.pop_back();
+}
+
 /// The value of `text` read as TOML, when it is exactly one.
 std::optional<Value> one_value(const std::string& text) {
   const std::string line = "v=" + text;
@@ -198,19 +187,15 @@ std::optional<Value> one_value(const std::string& text) {
 std::string Entry::name() const { return fmt::format("{}", fmt::join(keys, ".")); }
 
 std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems, std::string_view list) {
-  if (auto problem = beyond_bounds(toml)) {
-    problems.push_back(std::move(*problem));
-    return {};
-  }
   std::vector<Entry> entries;
-  try {
-    toml::table document = toml::parse(toml);
-    if (!list.empty()) collect_list(list, document, entries);
-    std::vector<std::string> keys;
-    collect(document, keys, entries);
-  } catch (const toml::parse_error& error) {
-    problems.push_back({static_cast<unsigned>(error.source().begin.line), "", std::string(error.description())});
-    return {};
+  std::vector<std::string> keys;
+  const Node root = read_tree(toml, problems);
+  for (const Node& node : root.children) {
+    if (list.empty() || !node.is_list || node.key != list) {
+      collect(node, node.key, keys, entries);
+      continue;
+    }
+    for (const Node& table : node.children) collect(table, table.name, keys, entries);
   }
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.line < b.line; });
   return entries;
