@@ -15,7 +15,6 @@
 #include "base/durations.h"
 #include "base/utc_text.h"
 #include "record/export/export.h"
-#include "record/export/field_meaning.h"
 #include "record/export/log_tables.h"
 #include "record/whole_file.h"
 
@@ -208,12 +207,10 @@ class TopicGroup {
     const bool is_coordinate = &column == &table_.columns().front();
     const auto variable =
         file_.add_variable(group_, variable_name(column), netcdf_type(column.values), dimension_, table_.rows());
-    const FieldMeaning* const meaning = field_meaning(table_.topic(), column.head.field->name);
-    if (meaning != nullptr) {
-      file_.attribute(variable, "long_name", long_name(column.head, meaning->long_name));
-      if (!meaning->standard_name.empty()) file_.attribute(variable, "standard_name", meaning->standard_name);
-      if (!meaning->units.empty()) file_.attribute(variable, "units", meaning->units);
-    }
+    const Field& field = *column.head.field;
+    if (!field.long_name.empty()) file_.attribute(variable, "long_name", long_name(column.head, field.long_name));
+    if (!field.standard_name.empty()) file_.attribute(variable, "standard_name", field.standard_name);
+    if (!field.units.empty()) file_.attribute(variable, "units", field.units);
     if (!has_coordinate_ && !is_coordinate) file_.attribute(variable, "coordinates", "time");
     if (std::holds_alternative<NumberColumn>(column.values)) {
       file_.fill_value(variable, std::numeric_limits<double>::quiet_NaN());

@@ -4,14 +4,10 @@
 #include <array>
 
 namespace navcal::record {
-namespace {
-
-/// What SensorPlaces adds to a sample.
-constexpr std::array kSensorPlace{Field{"lat", FieldKind::number, "deg"}, Field{"lon", FieldKind::number, "deg"}};
-
-}  // namespace
 
 std::vector<TopicColumn> topic_columns(const Topic& topic) {
+  // What SensorPlaces adds to a sample.
+  static const std::array kSensorPlace{sample_field("lat"), sample_field("lon")};
   constexpr std::array<std::string_view, 3> kAxes{"_x", "_y", "_z"};
   constexpr std::array<std::string_view, 3> kFins{"_1", "_2", "_3"};
   std::vector<TopicColumn> columns;

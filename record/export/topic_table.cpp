@@ -12,8 +12,8 @@
 namespace navcal::record {
 namespace {
 
-constexpr Field kTimeField{"time", FieldKind::number, "s"};
-constexpr Field kJsonField{"json", FieldKind::text};
+constexpr Field kTimeField{"time", FieldKind::number, "s", "", "time", "time of validity"};
+constexpr Field kJsonField{"json", FieldKind::text, "", "", "", "the message, a JSON object"};
 constexpr std::array<std::string_view, 2> kUtc{"time", "arrival"};
 constexpr std::array<std::string_view, 3> kIntervals{"monotonic", "offset", "at"};
 

@@ -10,11 +10,14 @@ namespace navcal::record {
 
 enum class FieldKind : std::uint8_t { number, boolean, text, vector3 };
 
-/// One member of a topic's messages.
+/// One member of a topic's messages, with its meaning in the terms of the CF conventions.
 struct Field {
   std::string_view name;
   FieldKind kind = FieldKind::number;
-  std::string_view unit{};  ///< where the name does not say it
+  std::string_view unit{};           ///< where the name does not say it
+  std::string_view units{};          ///< as UDUNITS reads them; empty of a text or a yes and no
+  std::string_view standard_name{};  ///< of the CF table; empty where it has none
+  std::string_view long_name{};
 };
 
 /// One topic whose messages are JSON. Its number is that of its channel and of its schema.
@@ -37,6 +40,9 @@ inline constexpr std::string_view kRawPrefix = "/raw/";
 [[nodiscard]] std::span<const Topic> json_topics();
 /// Null for a raw channel.
 [[nodiscard]] const Topic* json_topic(std::string_view name);
+
+/// The member of samples that has this name.
+[[nodiscard]] Field sample_field(std::string_view name);
 
 /// JSON schema in the dialect that Foxglove reads (a single type for each member: null stands for "absent").
 [[nodiscard]] std::string json_schema(const Topic& topic);
