@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "analysis/import/import_report.h"
-#include "analysis/port_matching.h"
 
 namespace navcal::analysis {
 namespace {
@@ -44,7 +43,7 @@ void CalibrateRun::play(const std::string& file, const record::Progress& progres
   if (!seen_.is_new(file, remarks_)) return;
   const auto recording = record::Recording::open(file, window);
   const record::PortMatch ports(recording->settings(), settings_);
-  for (const auto& port : ports.missing()) remarks_.push_back(missing_port_remark(file, port));
+  for (std::string& remark : ports.remarks(file)) remarks_.push_back(std::move(remark));
   file_begins_ = true;
   while (const auto entry = recording->next()) {
     at(file, time_of(*entry));
@@ -95,13 +94,8 @@ void CalibrateRun::begin_ordered() {
 }
 
 void CalibrateRun::take(const std::string& file, const record::Entry& entry, const record::PortMatch& ports) {
-  if (const auto* raw = std::get_if<record::RawRead>(&entry)) {
-    const auto port = ports[raw->port];
-    if (raw->direction != record::Direction::received || !port) return;
-    pipeline_->bytes(*port, newest_ns_, raw->bytes, sink_);
-  } else if (const auto* change = std::get_if<record::MappingChange>(&entry)) {
-    pipeline_->set_mapping(change->mapping, sink_);
-  } else if (const auto* order = std::get_if<pipeline::CalibrationChange>(&entry)) {
+  ports.give(entry, *pipeline_, sink_, newest_ns_);
+  if (const auto* order = std::get_if<pipeline::CalibrationChange>(&entry)) {
     const bool starts = order->cause == pipeline::CalibrationChange::Cause::start && order->calibrator;
     if (starts && calib::row_of(*order->calibrator).by_order)
       pipeline_->order_calibration(pipeline::CalibrationOrder::start, *order->calibrator, newest_ns_, sink_);

@@ -7,16 +7,11 @@
 
 namespace navcal::analysis {
 
-std::string missing_port_remark(const std::string& file, const std::string& port) {
-  return file + ": port " + port + " is not in the configuration: left out";
-}
-
 record::PortMatch match_ports(const config::Settings& recorded, const config::Settings& used,
                               const std::string& file) {
   record::PortMatch match(recorded, used);
-  for (const std::string& port : match.missing()) {
-    std::fprintf(stderr, "navcal: %s\n", base::printable(missing_port_remark(file, port)).c_str());
-  }
+  for (const std::string& remark : match.remarks(file))
+    std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
   return match;
 }
 

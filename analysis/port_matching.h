@@ -8,9 +8,6 @@
 
 namespace navcal::analysis {
 
-/// "FILE: port NAME is not in the configuration: left out".
-[[nodiscard]] std::string missing_port_remark(const std::string& file, const std::string& port);
-
 /// Which port of the configuration in use each port of a recording is. Ports that the configuration lacks are
 /// named on standard error.
 [[nodiscard]] record::PortMatch match_ports(const config::Settings& recorded, const config::Settings& used,

@@ -6,7 +6,6 @@
 #include <utility>
 #include <variant>
 
-#include "analysis/port_matching.h"
 #include "record/json/json_members.h"
 #include "record/json/message_json.h"
 
@@ -17,7 +16,7 @@ void ReplayRun::open(std::unique_ptr<record::Recording> recording, std::string f
   file_ = std::move(file);
   newest_ns_ = 0;
   ended_ = false;
-  for (const std::string& port : ports_->missing()) remarks_.push_back(missing_port_remark(file_, port));
+  for (std::string& remark : ports_->remarks(file_)) remarks_.push_back(std::move(remark));
 }
 
 bool ReplayRun::step(ReplaySink& sink) {
@@ -31,13 +30,9 @@ bool ReplayRun::step(ReplaySink& sink) {
 }
 
 void ReplayRun::take(const record::Entry& entry, ReplaySink& sink) {
+  ports_->give(entry, pipeline_, sink);
   if (const auto* raw = std::get_if<record::RawRead>(&entry)) {
     newest_ns_ = std::max(newest_ns_, raw->time_ns);
-    const auto port = (*ports_)[raw->port];
-    if (raw->direction == record::Direction::received && port)
-      pipeline_.bytes(*port, raw->time_ns, raw->bytes, sink);
-  } else if (const auto* change = std::get_if<record::MappingChange>(&entry)) {
-    pipeline_.set_mapping(change->mapping, sink);
   } else if (const auto* calibration = std::get_if<pipeline::CalibrationChange>(&entry)) {
     newest_ns_ = std::max(newest_ns_, calibration->time_ns);
     const auto problem = pipeline_.replay_calibration(*calibration, sink);

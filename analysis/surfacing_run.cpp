@@ -46,13 +46,8 @@ bool SurfacingRun::play(const std::string& file) {
     if (begins) begin_file(time_ns);
     begins = false;
     newest_ns_ = std::max(newest_ns_, time_ns);
-    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
-      const auto port = ports[raw->port];
-      if (raw->direction == record::Direction::received && port)
-        pipeline_->bytes(*port, raw->time_ns, raw->bytes, *this);
-    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
-      pipeline_->set_mapping(change->mapping, *this);
-    } else if (const auto* calibration = std::get_if<pipeline::CalibrationChange>(&*entry)) {
+    ports.give(*entry, *pipeline_, *this);
+    if (const auto* calibration = std::get_if<pipeline::CalibrationChange>(&*entry)) {
       if (const auto problem = pipeline_->replay_calibration(*calibration, *this); !problem.empty())
         remarks_.push_back(file + ": " + problem);
     }

@@ -18,4 +18,28 @@ PortMatch::PortMatch(const config::Settings& recorded, const config::Settings& u
   }
 }
 
+std::vector<std::string> PortMatch::remarks(const std::string& file) const {
+  std::vector<std::string> remarks;
+  for (const std::string& port : missing_)
+    remarks.push_back(file + ": port " + port + " is not in the configuration: left out");
+  return remarks;
+}
+
+void PortMatch::give(const Entry& entry, pipeline::Pipeline& pipeline, pipeline::Sink& sink,
+                     std::optional<std::int64_t> arrival_ns) const {
+  if (const auto* raw = std::get_if<RawRead>(&entry)) {
+    const auto port = used_.at(raw->port);
+    if (raw->direction == Direction::received && port)
+      pipeline.bytes(*port, arrival_ns.value_or(raw->time_ns), raw->bytes, sink);
+  } else if (const auto* change = std::get_if<MappingChange>(&entry)) {
+    pipeline.set_mapping(change->mapping, sink);
+  }
+}
+
+std::optional<protocols::motor_card::Command> sent_command(const Entry& entry) {
+  const auto* const raw = std::get_if<RawRead>(&entry);
+  if (raw == nullptr || raw->direction == Direction::received) return std::nullopt;
+  return protocols::motor_card::decode_command(raw->bytes);
+}
+
 }  // namespace navcal::record

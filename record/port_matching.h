@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "pipeline/pipeline.h"
+#include "protocols/motor_card.h"
+#include "record/recording.h"
 
 namespace navcal::record {
 
@@ -21,10 +24,20 @@ class PortMatch {
   }
   /// Names of the recorded ports that the configuration lacks.
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
+  /// "FILE: port NAME is not in the configuration: left out", for each of them.
+  [[nodiscard]] std::vector<std::string> remarks(const std::string& file) const;
+
+  /// Gives what a port of the configuration has received, and changes of UTC, to a pipeline of this configuration.
+  /// Other entries are not for it. `arrival_ns` takes the place of the time at which the bytes were read.
+  void give(const Entry& entry, pipeline::Pipeline& pipeline, pipeline::Sink& sink,
+            std::optional<std::int64_t> arrival_ns = std::nullopt) const;
 
  private:
   std::vector<std::optional<std::uint16_t>> used_;
   std::vector<std::string> missing_;
 };
+
+/// The order to a motor card that the host sent; nullopt: the entry is none.
+[[nodiscard]] std::optional<protocols::motor_card::Command> sent_command(const Entry& entry);
 
 }  // namespace navcal::record

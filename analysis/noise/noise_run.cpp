@@ -34,14 +34,8 @@ void play_into(ChannelCollector& collector, const std::string& file, const confi
   base::Progress progress("noise");
   std::int64_t newest_ns = 0;
   while (const auto entry = recording->next()) {
-    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
-      newest_ns = std::max(newest_ns, raw->time_ns);
-      const auto port = ports[raw->port];
-      if (raw->direction == record::Direction::received && port)
-        pipeline.bytes(*port, newest_ns, raw->bytes, collector);
-    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
-      pipeline.set_mapping(change->mapping, collector);
-    }
+    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) newest_ns = std::max(newest_ns, raw->time_ns);
+    ports.give(*entry, pipeline, collector, newest_ns);
     progress.show(recording->progress());
   }
   pipeline.advance(newest_ns, collector);

@@ -23,13 +23,7 @@ calib::Report instruments_alone(const std::filesystem::path& file, const std::op
   pipeline::Pipeline pipeline(settings);
   pipeline::Sink nobody;
   while (const auto entry = recording->next()) {
-    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
-      const auto port = ports[raw->port];
-      if (raw->direction == record::Direction::received && port)
-        pipeline.bytes(*port, raw->time_ns, raw->bytes, nobody);
-    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
-      pipeline.set_mapping(change->mapping, nobody);
-    }
+    ports.give(*entry, pipeline, nobody);
     progress(recording->progress());
   }
   pipeline.finish_calibration(nobody);

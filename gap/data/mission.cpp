@@ -313,11 +313,10 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
   std::optional<protocols::motor_card::Command> last_order;
   MissionGatherer::Said said;
   while (const auto entry = recording->next()) {
+    ports.give(*entry, pipeline, gatherer);
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       if (!begin_ns) begin_ns = raw->time_ns;
-      if (raw->direction == record::Direction::received) {
-        if (const auto port = ports[raw->port]) pipeline.bytes(*port, raw->time_ns, raw->bytes, gatherer);
-      } else if (const auto order = protocols::motor_card::decode_command(raw->bytes)) {
+      if (const auto order = record::sent_command(*entry)) {
         commanded_s.push_back(static_cast<double>(raw->time_ns - *begin_ns) * 1e-9);
         // A repeated order moves nothing.
         if (order != last_order) {
@@ -329,7 +328,6 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
       if (const auto json = record::FlatJson::parse(event->json))
         said.field_uT = stated_field_uT(json->get("message"));
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
-      pipeline.set_mapping(change->mapping, gatherer);
       if (change->mapping.source != pipeline::UtcMapping::Source::none) {
         said.utc_minus_stamps_ns = change->mapping.offset_ns;
       }
@@ -352,10 +350,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
     mission.remarks.push_back(fmt::format("{}: {} words with E001: the compass reports magnetic distortion",
                                           file.string(), mission.distorted));
   }
-  for (const auto& port : ports.missing()) {
-    mission.remarks.push_back(
-        fmt::format("{}: port {} is not in the configuration: left out", file.string(), port));
-  }
+  for (std::string& remark : ports.remarks(file.string())) mission.remarks.push_back(std::move(remark));
   for (const auto& remark : recording->remarks()) mission.remarks.push_back(file.string() + ": " + remark);
   return mission;
 }

@@ -22,15 +22,9 @@ void watch_recording(const std::filesystem::path& file, const std::optional<conf
   const record::PortMatch ports(recording->settings(), used);
   pipeline::Pipeline pipeline(samples_only(used));
   while (const auto entry = recording->next()) {
-    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
-      if (raw->direction == record::Direction::received) {
-        if (const auto port = ports[raw->port]) pipeline.bytes(*port, raw->time_ns, raw->bytes, watch);
-      } else if (const auto command = protocols::motor_card::decode_command(raw->bytes)) {
-        watch.on_order(raw->time_ns, order_of(*command, 0));
-      }
-    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
-      pipeline.set_mapping(change->mapping, watch);
-    }
+    ports.give(*entry, pipeline, watch);
+    if (const auto command = record::sent_command(*entry))
+      watch.on_order(std::get<record::RawRead>(*entry).time_ns, order_of(*command, 0));
     if (!go_on(recording->progress())) return;
   }
   watch.finish();

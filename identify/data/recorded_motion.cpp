@@ -278,19 +278,14 @@ RecordedMotion load_motion(const std::filesystem::path& file, const std::functio
   std::vector<std::array<double, 3>> ordered_fins_rad;
   std::optional<protocols::motor_card::Command> last_order;
   while (const auto entry = recording->next()) {
-    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
-      if (!begin_ns) begin_ns = raw->time_ns;
-      if (raw->direction == record::Direction::received) {
-        if (const auto port = ports[raw->port]) pipeline.bytes(*port, raw->time_ns, raw->bytes, gatherer);
-      } else if (const auto order = protocols::motor_card::decode_command(raw->bytes);
-                 order && order != last_order) {
-        // A repeated order moves nothing.
-        orders_ns.push_back(raw->time_ns);
-        ordered_fins_rad.push_back(gap::order_of(*order, 0).fins_rad);
-        last_order = order;
-      }
-    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
-      pipeline.set_mapping(change->mapping, gatherer);
+    ports.give(*entry, pipeline, gatherer);
+    const auto* const raw = std::get_if<record::RawRead>(&*entry);
+    if (raw != nullptr && !begin_ns) begin_ns = raw->time_ns;
+    // A repeated order moves nothing.
+    if (const auto order = record::sent_command(*entry); order && order != last_order) {
+      orders_ns.push_back(raw->time_ns);
+      ordered_fins_rad.push_back(gap::order_of(*order, 0).fins_rad);
+      last_order = order;
     }
     progress(recording->progress());
   }
@@ -299,8 +294,7 @@ RecordedMotion load_motion(const std::filesystem::path& file, const std::functio
   for (const std::int64_t time_ns : orders_ns)
     motion.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
   motion.ordered_fins_rad = std::move(ordered_fins_rad);
-  for (const auto& port : ports.missing())
-    motion.remarks.push_back(fmt::format("{}: port {} is not in the configuration: left out", motion.name, port));
+  for (std::string& remark : ports.remarks(motion.name)) motion.remarks.push_back(std::move(remark));
   for (const auto& remark : recording->remarks()) motion.remarks.push_back(motion.name + ": " + remark);
   return motion;
 }
