@@ -33,8 +33,6 @@ namespace web = navcal::web;
 namespace messages = navcal::protocols::ros2;
 using navcal::record::RosAxes;
 
-enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2 };
-
 struct Options {
   std::uint32_t domain = 0;
   std::string name_space = "/navcal", status = "127.0.0.1:2947", samples = "/run/navcal/samples";
@@ -119,9 +117,7 @@ std::string Publisher::summary() const {
                      lost_, without_utc_);
 }
 
-/// The exit status when the command line has said it all: help, version, or a mistake.
-std::optional<int> parse(int argc, char** argv, Options& options) {
-  CLI::App app{"navcal-ros2: topics of ROS 2 for navcald, without ROS", "navcal-ros2"};
+void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", "navcal-ros2 " NAVCAL_VERSION);
   constexpr int kLastDomain = 232;
   app.add_option("--domain", options.domain, "domain of ROS 2")
@@ -134,24 +130,17 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--status", options.status, "status socket of navcald, HOST:PORT")
       ->check([](const std::string& text) { return web::status_socket(text) ? "" : "wants HOST:PORT"; })
       ->capture_default_str();
-  const std::string form = std::string("KIND=/TOPIC with a kind of ") + ros2::kKinds;
+  static const std::string form = std::string("KIND=/TOPIC with a kind of ") + ros2::kKinds;
   app.add_option("--in", options.in, "topic whose messages become samples, " + form + "; may be repeated")
       ->take_all()
       ->allow_extra_args(false)
-      ->check([&](const std::string& text) { return ros2::read_source(text) ? "" : "wants " + form; });
+      ->check([](const std::string& text) { return ros2::read_source(text) ? "" : "wants " + form; });
   app.add_option("--samples", options.samples, "Unix socket of navcald's port with the protocol samples, for --in")
       ->capture_default_str();
   app.add_flag("--tf", options.tf, "sends the pose of the odometry on /tf, too");
   app.add_flag("--ned", options.ned,
                "forward, starboard, down and north, east, down instead of the axes of REP 103");
   app.footer("Example: navcal-ros2 --domain 3 --tf --in imu=/imu/data, then `ros2 topic echo /navcal/odometry`");
-  navcal::share::add_manual(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kStopped : kUsage;
-  }
-  return std::nullopt;
 }
 
 void run(const Options& options) {
@@ -187,12 +176,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  if (const auto status = parse(argc, argv, options)) return *status;
-  try {
-    run(options);
-    return kStopped;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "navcal-ros2: cannot start: {}\n", error.what());
-    return kCannotStart;
-  }
+  CLI::App app{"navcal-ros2: topics of ROS 2 for navcald, without ROS", "navcal-ros2"};
+  add_options(app, options);
+  return navcal::share::run_program(app, argc, argv, [&] { run(options); });
 }

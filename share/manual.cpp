@@ -128,4 +128,23 @@ void add_manual(CLI::App& app) {
   for (const CLI::App* command : listed_commands(app)) add_manual(*app.get_subcommand(command->get_name()));
 }
 
+int run_program(CLI::App& app, int argc, char** argv, const std::function<void()>& run,
+                const std::function<void()>& check) {
+  enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2 };
+  add_manual(app);
+  try {
+    app.parse(argc, argv);
+    check();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kStopped : kUsage;
+  }
+  try {
+    run();
+    return kStopped;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: cannot start: %s\n", app.get_name().c_str(), error.what());
+    return kCannotStart;
+  }
+}
+
 }  // namespace navcal::share

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 
 namespace navcal::share {
@@ -13,5 +14,12 @@ namespace navcal::share {
 /// --manual, also of each command, which prints that and ends the program. To be called once all commands are
 /// added.
 void add_manual(CLI::App& app);
+
+/// Reads the command line, with --manual, and runs the program, after which the exit status is 0. 1: it cannot
+/// start, and standard error says why; 2: the command line is wrong. `check` throws CLI::ParseError for options
+/// that do not fit together.
+[[nodiscard]] int run_program(
+    CLI::App& app, int argc, char** argv, const std::function<void()>& run,
+    const std::function<void()>& check = [] {});
 
 }  // namespace navcal::share

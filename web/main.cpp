@@ -4,7 +4,6 @@
 #include <boost/asio/signal_set.hpp>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +30,6 @@ namespace {
 
 namespace asio = boost::asio;
 namespace web = navcal::web;
-
-enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2 };
 
 struct Options {
   std::string address = "127.0.0.1";
@@ -77,10 +74,7 @@ void check_outlet_options(const web::OutletOptions& options, std::string_view st
     throw CLI::ValidationError("--chrony", "needs a navcald on this machine, by the clock of which it measures");
 }
 
-/// The exit status when the command line has said it all: help, version, or a mistake.
-std::optional<int> parse(int argc, char** argv, Options& options) {
-  CLI::App app{"navcal-web: shows a running navcald in the browser, and serves it to other programs",
-               "navcal-web"};
+void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", "navcal-web " NAVCAL_VERSION);
   app.add_option("--port", options.port, "TCP port to listen at")->capture_default_str();
   app.add_option("--address", options.address, "IP address to listen at; 0.0.0.0 or :: serves the whole network")
@@ -105,14 +99,6 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
       ->check(CLI::ExistingFile);
   add_outlet_options(app, options.outlets);
   app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
-  navcal::share::add_manual(app);
-  try {
-    app.parse(argc, argv);
-    check_outlet_options(options.outlets, options.status);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kStopped : kUsage;
-  }
-  return std::nullopt;
 }
 
 void run(const Options& options) {
@@ -159,12 +145,9 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  if (const auto status = parse(argc, argv, options)) return *status;
-  try {
-    run(options);
-    return kStopped;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "navcal-web: cannot start: %s\n", error.what());
-    return kCannotStart;
-  }
+  CLI::App app{"navcal-web: shows a running navcald in the browser, and serves it to other programs",
+               "navcal-web"};
+  add_options(app, options);
+  return navcal::share::run_program(
+      app, argc, argv, [&] { run(options); }, [&] { check_outlet_options(options.outlets, options.status); });
 }
