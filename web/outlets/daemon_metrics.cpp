@@ -13,19 +13,25 @@ namespace {
 using nlohmann::json;
 using enum Exposition::Type;
 
-/// A member of a message that is a metric by itself.
+/// A member of a message that is a metric by itself: a number, or 1 and 0 for true and false.
 struct DaemonMember {
   const char* key;
   const char* name;
   Exposition::Type type;
   const char* help;
   double factor = 1;
+  const char* within = nullptr;  ///< the object of the message in which it lies, if not the message itself
+
+  [[nodiscard]] std::optional<double> of(const json& message) const {
+    const json& object = within == nullptr ? message : member_of(message, within);
+    const auto flag = flag_in(object, key);
+    return flag ? flag : scaled(number_in(object, key), factor);
+  }
 };
 
 template <std::size_t N>
 void append_members(Exposition& out, const json& object, const std::array<DaemonMember, N>& members) {
-  for (const DaemonMember& member : members)
-    out.single(member.name, member.type, member.help, scaled(number_in(object, member.key), member.factor));
+  for (const DaemonMember& member : members) out.single(member.name, member.type, member.help, member.of(object));
 }
 
 using Objects = std::vector<const json*>;
@@ -36,8 +42,7 @@ void append_members(Exposition& out, const Objects& objects, const char* label,
                     const std::array<DaemonMember, N>& members) {
   for (const DaemonMember& member : members) {
     out.metric(member.name, member.type, member.help);
-    for (const json* one : objects)
-      out.sample({{label, text_in(*one, label)}}, scaled(number_in(*one, member.key), member.factor));
+    for (const json* one : objects) out.sample({{label, text_in(*one, label)}}, member.of(*one));
   }
 }
 
@@ -121,7 +126,8 @@ constexpr std::array kBatteryMembers{
                  kRatioPerPercent},
     DaemonMember{"energy_Wh", "navcald_battery_energy_joules", gauge, "Energy that is left.", kJoulesPerWh},
     DaemonMember{"time_left_s", "navcald_battery_time_left_seconds", gauge, "Time left at the mean load."},
-    DaemonMember{"range_left_m", "navcald_battery_range_left_meters", gauge, "Way left at the mean speed."}};
+    DaemonMember{"range_left_m", "navcald_battery_range_left_meters", gauge, "Way left at the mean speed."},
+    DaemonMember{"low", "navcald_battery_low", gauge, "1 while the alarm of the battery stands."}};
 
 constexpr std::array kCalibratorMembers{
     DaemonMember{"coverage", "navcald_calibrator_coverage_ratio", gauge, "Share of the headings that was seen."},
@@ -141,6 +147,18 @@ void append_state(Exposition& out, const char* name, const char* help, const cha
   out.metric(name, gauge, help);
   if (state.empty()) return;
   for (const char* one : known) out.sample({{label, one}}, state == one ? 1.0 : 0.0);
+}
+
+/// The same of several objects, which the text at `label` tells apart; `key` has the state.
+template <std::size_t N>
+void append_states(Exposition& out, const char* name, const char* help, const Objects& objects, const char* label,
+                   const char* key, const std::array<const char*, N>& known) {
+  out.metric(name, gauge, help);
+  for (const json* object : objects) {
+    const std::string state = text_in(*object, key), of = text_in(*object, label);
+    if (state.empty()) continue;
+    for (const char* one : known) out.sample({{label, of}, {key, one}}, state == one ? 1.0 : 0.0);
+  }
 }
 
 void append_alarms(Exposition& out, const json& health) {
@@ -172,6 +190,20 @@ constexpr std::array kPortCounters{
     DaemonMember{"lost", "navcald_port_lost_frames_total", counter, "Frames missing by sequence number or clock."},
     DaemonMember{"repeated", "navcald_port_repeated_frames_total", counter, "Frames that came twice."}};
 
+constexpr double kPpm = 1e-6;
+constexpr std::array kPortClock{DaemonMember{"locked", "navcald_port_clock_locked", gauge,
+                                             "1 when the clock of the device is known.", 1, "clock"},
+                                DaemonMember{"period_s", "navcald_port_period_seconds", gauge,
+                                             "Period of the frames, as it was learnt.", 1, "clock"},
+                                DaemonMember{"jitter_s", "navcald_port_jitter_seconds", gauge,
+                                             "Scatter of the arrivals about the clock of the device.", 1, "clock"},
+                                DaemonMember{"skew_ppm", "navcald_port_clock_skew_ratio", gauge,
+                                             "Rate of the clock of the device, less one.", kPpm, "clock"},
+                                DaemonMember{"skew_std_ppm", "navcald_port_clock_skew_std_ratio", gauge,
+                                             "Standard error of navcald_port_clock_skew_ratio.", kPpm, "clock"},
+                                DaemonMember{"resets", "navcald_port_clock_resets_total", counter,
+                                             "Times that the clock of the device was learnt anew.", 1, "clock"}};
+
 /// Bounds of the histogram in seconds: 1, 2, 4, ... microseconds. The daemon's last bucket has none.
 constexpr std::size_t kLatencyBounds = 20;
 
@@ -183,38 +215,6 @@ std::array<double, kLatencyBounds> latency_bounds_s() {
     bound_us *= 2;
   }
   return bounds;
-}
-
-void append_port_states(Exposition& out, const Objects& ports) {
-  out.metric("navcald_port_state", gauge, "1 for the state in which the port is, 0 for others.");
-  for (const json* port : ports) {
-    const std::string state = text_in(*port, "state"), device = text_in(*port, "device");
-    if (state.empty()) continue;
-    for (const char* known : kPortStates)
-      out.sample({{"device", device}, {"state", known}}, state == known ? 1.0 : 0.0);
-  }
-}
-
-void append_port_clocks(Exposition& out, const Objects& ports) {
-  const auto of_each = [&](const char* name, const char* help, auto&& value) {
-    out.metric(name, gauge, help);
-    for (const json* port : ports)
-      out.sample({{"device", text_in(*port, "device")}}, value(member_of(*port, "clock")));
-  };
-  constexpr double kPpm = 1e-6;
-  of_each("navcald_port_clock_locked", "1 when the clock of the device is known.",
-          [](const json& clock) { return flag_in(clock, "locked"); });
-  of_each("navcald_port_period_seconds", "Period of the frames, as it was learnt.",
-          [](const json& clock) { return number_in(clock, "period_s"); });
-  of_each("navcald_port_jitter_seconds", "Scatter of the arrivals about the clock of the device.",
-          [](const json& clock) { return number_in(clock, "jitter_s"); });
-  of_each("navcald_port_clock_skew_ratio", "Rate of the clock of the device, less one.",
-          [](const json& clock) { return scaled(number_in(clock, "skew_ppm"), kPpm); });
-  of_each("navcald_port_clock_skew_std_ratio", "Standard error of navcald_port_clock_skew_ratio.",
-          [](const json& clock) { return scaled(number_in(clock, "skew_std_ppm"), kPpm); });
-  out.metric("navcald_port_clock_resets_total", counter, "Times that the clock of the device was learnt anew.");
-  for (const json* port : ports)
-    out.sample({{"device", text_in(*port, "device")}}, number_in(member_of(*port, "clock"), "resets"));
 }
 
 void append_port_latencies(Exposition& out, const Objects& ports) {
@@ -238,9 +238,10 @@ void append_ports(Exposition& out, const std::vector<json>& health_parts) {
       if (port.is_object() && !text_in(port, "device").empty()) ports.push_back(&port);
     }
   }
-  append_port_states(out, ports);
+  append_states(out, "navcald_port_state", "1 for the state in which the port is, 0 for others.", ports, "device",
+                "state", kPortStates);
   append_members(out, ports, "device", kPortCounters);
-  append_port_clocks(out, ports);
+  append_members(out, ports, "device", kPortClock);
   append_port_latencies(out, ports);
 }
 
@@ -302,9 +303,6 @@ void append_batteries(Exposition& out, const std::vector<json>& batteries) {
   Objects each;
   for (const json& battery : batteries) each.push_back(&battery);
   append_members(out, each, "device", kBatteryMembers);
-  out.metric("navcald_battery_low", gauge, "1 while the alarm of the battery stands.");
-  for (const json& battery : batteries)
-    out.sample({{"device", text_in(battery, "device")}}, flag_in(battery, "low"));
 }
 
 void append_calibration(Exposition& out, const std::vector<json>& parts) {
@@ -314,13 +312,8 @@ void append_calibration(Exposition& out, const std::vector<json>& parts) {
       if (one.is_object()) calibrators.push_back(&one);
     }
   }
-  out.metric("navcald_calibrator_verdict", gauge, "1 for the verdict on the newest estimate, 0 for others.");
-  for (const json* one : calibrators) {
-    const std::string verdict = text_in(*one, "verdict"), name = text_in(*one, "calibrator");
-    if (verdict.empty()) continue;
-    for (const char* known : kVerdicts)
-      out.sample({{"calibrator", name}, {"verdict", known}}, verdict == known ? 1.0 : 0.0);
-  }
+  append_states(out, "navcald_calibrator_verdict", "1 for the verdict on the newest estimate, 0 for others.",
+                calibrators, "calibrator", "verdict", kVerdicts);
   append_members(out, calibrators, "calibrator", kCalibratorMembers);
 }
 
