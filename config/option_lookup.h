@@ -41,6 +41,21 @@ std::vector<std::string> tables_of(const std::vector<Option<Owner>>& options) {
   return tables;
 }
 
+/// Options as text: line(option) of each, "" of those that are left out, and heading(table) before the first of a
+/// table.
+template <class Owner, class Heading, class Line>
+std::string text_of(const std::vector<Option<Owner>>& options, Heading heading, Line line) {
+  std::string out;
+  std::string_view table;
+  for (const auto& option : options) {
+    const std::string text = option.moved_to.empty() ? line(option) : std::string();
+    if (text.empty()) continue;
+    if (option.table != table) out += heading(table = option.table);
+    out += text;
+  }
+  return out;
+}
+
 /// The value in the option's own kind, or why not.
 template <class Owner>
 std::optional<std::string> set(const Option<Owner>& option, Owner& owner, const Entry& entry) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/option.h"
@@ -18,6 +20,9 @@ namespace navcal::config {
 
 /// The options of a [port.NAME] table, those of its own first, then sub-table by sub-table.
 [[nodiscard]] const std::vector<Option<PortSettings>>& port_options();
+
+/// The table [port.NAME] of a port as a file has it, with the options of its protocol that it `states`.
+[[nodiscard]] std::string port_table(const PortSettings& port, bool (*states)(const OptionInfo&, const Value&));
 
 /// The options of a [power.NAME] table.
 [[nodiscard]] const std::vector<Option<PowerSettings>>& power_options();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/load.h"
+#include "config/option_lookup.h"
 #include "config/options.h"
 #include "protocols/device_types.h"
 
@@ -67,62 +68,44 @@ std::string default_clause(const OptionInfo& option, const std::string& words) {
 }
 
 std::string daemon_part() {
-  std::string out;
-  std::string_view table;
-  for (const auto& option : daemon_options()) {
-    if (!option.moved_to.empty()) continue;
-    if (option.table != table) {
-      table = option.table;
-      out += fmt::format("\n# {}\n[{}]\n", table_description(table), table);
-    }
+  const auto heading = [](std::string_view table) {
+    return fmt::format("\n# {}\n[{}]\n", table_description(table), table);
+  };
+  return text_of(daemon_options(), heading, [](const auto& option) {
     const std::string words = default_words(option);
-    out += fmt::format("\n# {}\n# {}; {}\n{} = {}\n", option.description, option.allowed(),
+    return fmt::format("\n# {}\n# {}; {}\n{} = {}\n", option.description, option.allowed(),
                        default_clause(option, words), option.key, words);
-  }
-  return out;
+  });
 }
 
-/// Every option of a port, explained once, all of it comment.
+/// An option of a port or a supply, all of it comment.
+template <class Owner>
+std::string explained(const Option<Owner>& option) {
+  return fmt::format("#   {:<16} {}\n#   {:<16} {}; {}\n", option.key, option.description, "", option.allowed(),
+                     default_clause(option, default_words(option)));
+}
+
+/// Every option of a port, explained once.
 std::string port_part() {
-  std::string out = fmt::format("\n# {}\n#\n# [port.NAME]\n", table_description(""));
-  std::string_view table;
-  for (const auto& option : port_options()) {
-    if (option.table != table) {
-      table = option.table;
-      out += fmt::format("#\n# {} (for {})\n# [port.NAME.{}]\n", table_description(table),
-                         protocols_words(port_options(), table), table);
-    }
-    out += fmt::format("#   {:<16} {}\n#   {:<16} {}; {}\n", option.key, option.description, "", option.allowed(),
-                       default_clause(option, default_words(option)));
-  }
-  return out;
+  const auto heading = [](std::string_view table) {
+    return fmt::format("#\n# {} (for {})\n# [port.NAME.{}]\n", table_description(table),
+                       protocols_words(port_options(), table), table);
+  };
+  return fmt::format("\n# {}\n#\n# [port.NAME]\n", table_description("")) +
+         text_of(port_options(), heading, explained<PortSettings>);
 }
 
-/// Every option of a supply, all of it comment.
+/// Every option of a supply.
 std::string power_part() {
-  std::string out = fmt::format("\n# {}\n#\n# [power.NAME]\n", table_description("power"));
-  for (const auto& option : power_options()) {
-    out += fmt::format("#   {:<16} {}\n#   {:<16} {}; {}\n", option.key, option.description, "", option.allowed(),
-                       default_clause(option, default_words(option)));
-  }
-  return out;
+  const auto heading = [](std::string_view) { return std::string(); };
+  return fmt::format("\n# {}\n#\n# [power.NAME]\n", table_description("power")) +
+         text_of(power_options(), heading, explained<PowerSettings>);
 }
 
-/// A port of the vehicle: what its wiring decides, and what belongs to the single device.
-std::string vehicle_port(const PortSettings& port) {
-  std::string out = fmt::format("\n[port.{}]\n", port.name);
-  std::string_view table;
-  for (const auto& option : port_options()) {
-    const bool stated = !option.table.empty() || option.key == "protocol" || option.key == "udev_name" ||
-                        option.key == "baud" || option.key == "latency_ms" || option.key == "rate_Hz";
-    if (!stated || !option.applies_to(port.protocol)) continue;
-    if (option.table != table) {
-      table = option.table;
-      out += fmt::format("[port.{}.{}]\n", port.name, table);
-    }
-    out += fmt::format("{} = {}\n", option.key, option.write(option.get(port)));
-  }
-  return out;
+/// What the wiring of the vehicle decides, and what belongs to the single device.
+bool is_of_vehicle(const OptionInfo& option, const Value&) {
+  return !option.table.empty() || option.key == "protocol" || option.key == "udev_name" || option.key == "baud" ||
+         option.key == "latency_ms" || option.key == "rate_Hz";
 }
 
 template <class Owner>
@@ -170,7 +153,7 @@ std::string shipped_file() {
   out += port_part();
   out += power_part();
   out += "\n# The instruments of the reference vehicle.\n";
-  for (const PortSettings& port : shipped_settings().ports) out += vehicle_port(port);
+  for (const PortSettings& port : shipped_settings().ports) out += port_table(port, is_of_vehicle);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "config/load.h"
+#include "config/option_lookup.h"
 #include "config/options.h"
 
 namespace navcal::config {
@@ -12,36 +13,23 @@ std::string line(const Option<Owner>& option, const Owner& owner) {
   return fmt::format("{} = {}\n", option.key, option.write(option.get(owner)));
 }
 
-std::string port_table(const PortSettings& port) {
-  std::string out = fmt::format("\n[port.{}]\n", port.name);
-  std::string_view table;
-  for (const auto& option : port_options()) {
-    if (!option.applies_to(port.protocol)) continue;
-    const Value value = option.get(port);
-    if (value == Value(std::string())) continue;  // a place that is not given
-    if (option.table != table) {
-      table = option.table;
-      out += fmt::format("[port.{}.{}]\n", port.name, table);
-    }
-    out += line(option, port);
-  }
-  return out;
-}
+bool is_given(const OptionInfo&, const Value& value) { return value != Value(std::string()); }
 
 }  // namespace
 
+std::string port_table(const PortSettings& port, bool (*states)(const OptionInfo&, const Value&)) {
+  const auto heading = [&](std::string_view table) { return fmt::format("[port.{}.{}]\n", port.name, table); };
+  return fmt::format("\n[port.{}]\n", port.name) + text_of(port_options(), heading, [&](const auto& option) {
+           const bool is_stated = option.applies_to(port.protocol) && states(option, option.get(port));
+           return is_stated ? line(option, port) : std::string();
+         });
+}
+
 std::string to_toml(const Settings& settings) {
-  std::string out;
-  std::string_view table;
-  for (const auto& option : daemon_options()) {
-    if (!option.moved_to.empty()) continue;
-    if (option.table != table) {
-      table = option.table;
-      out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", table);
-    }
-    out += line(option, settings);
-  }
-  for (const auto& port : settings.ports) out += port_table(port);
+  const auto heading = [](std::string_view table) { return fmt::format("\n[{}]\n", table); };
+  std::string out = text_of(daemon_options(), heading, [&](const auto& option) { return line(option, settings); });
+  out.erase(0, 1);  // no empty line at the beginning
+  for (const auto& port : settings.ports) out += port_table(port, is_given);
   for (const auto& supply : settings.power) {
     out += fmt::format("\n[power.{}]\n", supply.name);
     for (const auto& option : power_options()) out += line(option, supply);

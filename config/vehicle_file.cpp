@@ -35,22 +35,19 @@ VehicleSettings load_vehicle(const std::filesystem::path& file) {
 }
 
 std::string vehicle_file(const VehicleSettings& settings) {
-  std::string out =
+  const std::string out =
       "# A vehicle of the simulator: navcal simulate --vehicle FILE, navcal emulate --vehicle FILE. What "
       "is "
       "not\n"
       "# given is as here: a miniature AUV with one propeller and three fins. The equations are in "
       "docs/simulator.md.\n";
-  std::string_view table;
-  for (const Option<VehicleSettings>& option : vehicle_options()) {
-    if (option.table != table) {
-      table = option.table;
-      out += fmt::format("\n# {}\n[{}]\n", vehicle_table_description(table), table);
-    }
-    out += fmt::format("\n# {} ({})\n{} = {}\n", option.description, option.allowed(), option.key,
-                       option.write(option.get(settings)));
-  }
-  return out;
+  const auto heading = [](std::string_view table) {
+    return fmt::format("\n# {}\n[{}]\n", vehicle_table_description(table), table);
+  };
+  return out + text_of(vehicle_options(), heading, [&](const auto& option) {
+           return fmt::format("\n# {} ({})\n{} = {}\n", option.description, option.allowed(), option.key,
+                              option.write(option.get(settings)));
+         });
 }
 
 }  // namespace navcal::config
