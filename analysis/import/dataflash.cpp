@@ -77,6 +77,7 @@ class DataFlashFile {
   std::array<Plan, 256> plans_;
   std::map<std::pair<std::uint8_t, int>, std::string> labels_;
   std::map<int, std::array<std::optional<double>, 3>> accuracies_;  ///< newest GPA of each receiver
+  std::optional<double> heading_std_rad_;                           ///< by the newest XKV1
   bool is_submarine_ = false;  ///< ArduSub: its primary barometer is in the water
   std::int64_t primary_baro_ = 0;
   bool undoes_calibration_;
@@ -168,6 +169,9 @@ void DataFlashFile::take_known(const Plan& plan, std::uint8_t type, std::string_
     case Kind::gps_accuracy:
       accuracies_[instance] = {field(plan, record, 0), field(plan, record, 1), field(plan, record, 2)};
       return sink_.left(fmt::format("{} (its errors go with the next fix)", name));
+    case Kind::state_variances:
+      heading_std_rad_ = heading_std_of(field(plan, record, 0), field(plan, record, 1));
+      return sink_.left(fmt::format("{} (its error of the heading goes with the next attitude)", name));
     case Kind::attitude:
       sample.port = port_name(PortKind::attitude, instance);
       return take_attitude(plan, record, sample);
@@ -271,6 +275,9 @@ void DataFlashFile::take_attitude(const Plan& plan, std::string_view record, Imp
   LineWriter line("COMPASS");
   line.number("heading_rad", base::as_heading(field(plan, record, 2).value_or(NAN)));
   line.boolean("heading_is_true", true);
+  // XKV1 is of the third estimator; the attitude is that of the active one.
+  if (constexpr double kThird = 3; field(plan, record, 3).value_or(0) == kThird)
+    line.number("heading_std_rad", heading_std_rad_);
   line.number("pitch_rad", field(plan, record, 1)).number("roll_rad", field(plan, record, 0));
   sink_.sample(sample, line);
 }

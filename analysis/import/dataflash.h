@@ -12,11 +12,11 @@ namespace navcal::analysis {
 [[nodiscard]] bool is_dataflash(std::string_view head);
 
 /// ArduPilot's DataFlash log (.bin), version of the self-describing records A3 95. Taken are IMU, MAG, BARO, GPS
-/// (with the errors of GPA), ATT, BAT and RCOU; columns, units and multipliers by FMT, FMTU, UNIT and MULT.
-/// ArduPilot's body axes are those of navcal: forward, starboard, down. `channels` become
-/// shaft and fins. docs/import.md has the table.
-/// `undoes_calibration`: takes the autopilot's own calibration off the fields, by the offsets and motor field that
-/// each MAG states and by the COMPASS_ parameters of the log.
+/// (with the errors of GPA), ATT (with the error of the heading by XKV1), BAT and RCOU; columns, units and
+/// multipliers by FMT, FMTU, UNIT and MULT. ArduPilot's body axes are those of navcal: forward, starboard, down.
+/// `channels` become shaft and fins. docs/import.md has the table. `undoes_calibration`: takes the autopilot's own
+/// calibration off the fields, by the offsets and motor field that each MAG states and by the COMPASS_ parameters
+/// of the log.
 [[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels,
                                             bool undoes_calibration = true);
 

@@ -59,7 +59,9 @@ constexpr std::array kGpsFields{
     Field{"GCrs", &kAngle, false}, Field{"VZ", &kSpeed, false}};
 constexpr std::array kAccuracyFields{Field{"HAcc", &kLength, false}, Field{"VAcc", &kLength, false},
                                      Field{"SAcc", &kSpeed, false}};
-constexpr std::array kAttitudeFields{Field{"Roll", &kAngle}, Field{"Pitch", &kAngle}, Field{"Yaw", &kAngle}};
+constexpr std::array kAttitudeFields{Field{"Roll", &kAngle}, Field{"Pitch", &kAngle}, Field{"Yaw", &kAngle},
+                                     Field{"AEKF", &kAny, false}};
+constexpr std::array kVarianceFields{Field{"V00", &kAny}, Field{"V03", &kAny}};
 constexpr std::array kBatteryFields{Field{"Volt", &kVoltage}, Field{"Curr", &kCurrent, false}};
 constexpr std::array kParameterFields{Field{"Name", &kAny}, Field{"Value", &kAny}};
 constexpr std::array kTextFields{Field{"Message", &kAny}};
@@ -72,6 +74,7 @@ std::span<const Field> fields_of(Kind kind) {
     case Kind::gps: return kGpsFields;
     case Kind::gps_accuracy: return kAccuracyFields;
     case Kind::attitude: return kAttitudeFields;
+    case Kind::state_variances: return kVarianceFields;
     case Kind::battery: return kBatteryFields;
     case Kind::parameter: return kParameterFields;
     case Kind::text: return kTextFields;
@@ -91,13 +94,14 @@ std::optional<double> factor_of(const Dimension& dimension, std::string_view uni
 }  // namespace
 
 KindOfName kind_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Kind>, 11> kNames{{{"IMU", Kind::imu},
+  constexpr std::array<std::pair<std::string_view, Kind>, 12> kNames{{{"IMU", Kind::imu},
                                                                       {"MAG", Kind::mag},
                                                                       {"BARO", Kind::baro},
                                                                       {"BAR", Kind::baro},
                                                                       {"GPS", Kind::gps},
                                                                       {"GPA", Kind::gps_accuracy},
                                                                       {"ATT", Kind::attitude},
+                                                                      {"XKV1", Kind::state_variances},
                                                                       {"BAT", Kind::battery},
                                                                       {"RCOU", Kind::outputs},
                                                                       {"PARM", Kind::parameter},

@@ -19,6 +19,7 @@ enum class Kind : std::uint8_t {
   gps,
   gps_accuracy,
   attitude,
+  state_variances,
   battery,
   outputs,
   parameter,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -37,6 +38,13 @@ class ImportSink {
   /// Bytes of the file that were read. May throw, to end the reading.
   virtual void progress(std::uint64_t done) = 0;
 };
+
+/// Standard error of the heading of a nearly level vehicle, by the variances of w and z of its quaternion: each is
+/// a quarter of the heading's, times the square of the other one. nullopt where they are none.
+[[nodiscard]] inline std::optional<double> heading_std_of(std::optional<double> w, std::optional<double> z) {
+  const double square = 4 * (w.value_or(NAN) + z.value_or(NAN));
+  return square > 0 ? std::optional(std::sqrt(square)) : std::nullopt;
+}
 
 /// What a reader has to say of a whole file.
 struct ImportFindings {

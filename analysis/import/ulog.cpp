@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include "analysis/import/ulog_format.h"
 #include "analysis/import/wire_reader.h"
 #include "base/angles.h"
+#include "base/rotation.h"
 
 namespace navcal::analysis {
 namespace {
@@ -87,19 +89,6 @@ void take_receiver(const UlogMessage& message, ImportedSample sample, ImportSink
   sink.sample(sample, line);
 }
 
-/// Rotation of the body (forward, starboard, down) in the world (north, east, down), scalar first.
-void take_attitude(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
-  std::array<double, 4> q{};
-  for (std::size_t i = 0; i < q.size(); ++i) q[i] = message.number("q", i).value_or(NAN);
-  const auto [w, x, y, z] = q;
-  LineWriter line("COMPASS");
-  line.number("heading_rad", base::as_heading(std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))));
-  line.boolean("heading_is_true", true);
-  line.number("pitch_rad", std::asin(std::clamp(2 * (w * y - z * x), -1.0, 1.0)));
-  line.number("roll_rad", std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)));
-  sink.sample(sample, line);
-}
-
 void take_battery(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
   LineWriter line("POWER");
   line.number("voltage_V", message.number("voltage_v")).number("current_A", message.number("current_a"));
@@ -149,7 +138,7 @@ std::optional<double> member_of(const UlogMessage& message, std::string_view mem
 struct UlogTarget {
   std::string_view message;
   PortKind kind;
-  void (*take)(const UlogMessage&, ImportedSample, ImportSink&);  ///< null: UlogFile::take_field
+  void (*take)(const UlogMessage&, ImportedSample, ImportSink&);  ///< null: UlogFile::take_field, take_attitude
 };
 
 template <void (*Take)(const UlogMessage&, const ImportedSample&, ImportSink&)>
@@ -162,7 +151,10 @@ constexpr std::array kUlogTargets{UlogTarget{"sensor_combined", PortKind::imu, t
                                   UlogTarget{"vehicle_air_data", PortKind::baro, taken_by<take_air>},
                                   UlogTarget{"vehicle_gps_position", PortKind::gps, take_receiver},
                                   UlogTarget{"sensor_gps", PortKind::gps, take_receiver},
-                                  UlogTarget{"vehicle_attitude", PortKind::attitude, taken_by<take_attitude>},
+                                  UlogTarget{"vehicle_attitude", PortKind::attitude, nullptr},
+                                  UlogTarget{"vehicle_local_position", PortKind::attitude, nullptr},
+                                  UlogTarget{"estimator_states", PortKind::attitude, nullptr},
+                                  UlogTarget{"estimator_status", PortKind::attitude, nullptr},
                                   UlogTarget{"battery_status", PortKind::battery, taken_by<take_battery>}};
 
 class UlogFile {
@@ -187,6 +179,7 @@ class UlogFile {
   void take_data(std::string_view content);
   void take_parameter(std::string_view content);
   void take_field(const UlogMessage& message, const ImportedSample& sample, int instance);
+  void take_attitude(const UlogMessage& message, const ImportedSample& sample, int instance);
 
   std::string_view file_;
   ImportSink& sink_;
@@ -199,6 +192,7 @@ class UlogFile {
   std::uint64_t dropouts_ = 0, dropped_ms_ = 0;
   bool undoes_calibration_;
   std::map<std::string, double> parameters_;
+  std::optional<double> heading_std_rad_;  ///< the newest that the estimator stated
 };
 
 ImportFindings UlogFile::read() {
@@ -280,6 +274,28 @@ void UlogFile::take_field(const UlogMessage& message, const ImportedSample& samp
   sink_.sample(sample, line);
 }
 
+/// Rotation of the body (forward, starboard, down) in the world (north, east, down), scalar first; or what the
+/// estimator states of its error. The variances of a quaternion are those of 24 states; of 25 they are of angles.
+void UlogFile::take_attitude(const UlogMessage& message, const ImportedSample& sample, int instance) {
+  constexpr std::size_t kLast = 23;
+  if (!message.number("q")) {
+    auto std_rad = message.number("heading_var");
+    if (std_rad) std_rad = *std_rad > 0 ? std::optional(std::sqrt(*std_rad)) : std::nullopt;
+    if (message.number("covariances", kLast) && !message.number("states", kLast + 1))
+      std_rad = heading_std_of(message.number("covariances", 0), message.number("covariances", 3));
+    if (std_rad && instance == 0) heading_std_rad_ = std_rad;
+    if (!channels_.has(sample.message)) sink_.left(sample.message);
+    return;
+  }
+  LineWriter line("COMPASS");
+  const auto q = [&](std::size_t i) { return message.number("q", i).value_or(NAN); };
+  const auto angles = base::angles_of(Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix());
+  line.number("heading_rad", base::as_heading(angles.yaw_rad)).boolean("heading_is_true", true);
+  line.number("heading_std_rad", heading_std_rad_);
+  line.number("pitch_rad", angles.pitch_rad).number("roll_rad", angles.roll_rad);
+  sink_.sample(sample, line);
+}
+
 void UlogFile::subscribe(std::string_view content) {
   constexpr std::size_t kName = 3;
   if (content.size() <= kName) return;
@@ -326,7 +342,8 @@ void UlogFile::take_data(std::string_view content) {
     if (receiver_ != subscription.target->message)
       return sink_.left(fmt::format("{} (the same as {})", subscription.label, receiver_));
   }
-  if (subscription.target->take == nullptr) return take_field(message, sample, subscription.instance);
+  if (kind == PortKind::compass) return take_field(message, sample, subscription.instance);
+  if (kind == PortKind::attitude) return take_attitude(message, sample, subscription.instance);
   subscription.target->take(message, sample, sink_);
 }
 

@@ -144,6 +144,27 @@ std::string small_log() {
   return log.out;
 }
 
+TEST(DataFlash, TheErrorThatTheActiveEstimatorStatesOfItsHeadingGoesWithTheAttitude) {
+  const auto stated = [](char active) {
+    DataFlashWriter log;
+    log.format(20, 3 + 8 + 1 + 16, "XKV1", "QBffff", "TimeUS,C,V00,V01,V02,V03");
+    log.format(13, 3 + 8 + 6 + 1, "ATT", "QcccB", "TimeUS,Roll,Pitch,Yaw,AEKF");
+    log.head(20);
+    append_number(log.out, std::uint64_t{1'000'000});
+    log.out.push_back('\0');
+    for (const float variance : {0.0003F, 1.0F, 1.0F, 0.0001F}) append_number(log.out, variance);
+    log.head(13);
+    append_number(log.out, std::uint64_t{1'300'000});
+    append_all<std::int16_t>(log.out, {0, 0, 9000});
+    log.out.push_back(active);
+    RecordingSink sink;
+    (void)read_dataflash(log.out, sink);
+    return sink.of_port("attitude").at(0).line.value("heading_std_rad", 0.0);
+  };
+  EXPECT_NEAR(stated('\3'), 0.04, 1e-6);
+  EXPECT_EQ(stated('\2'), 0) << "the second estimator logs no variances";
+}
+
 TEST(DataFlash, ReadsEachMessageInUnitsOfNavcal) {
   RecordingSink sink;
   const auto findings = read_dataflash(small_log(), sink);

@@ -64,7 +64,7 @@ std::string small_ulog() {
   log.subscribe(4, 0, "battery_status");
   log.subscribe(5, 0, "actuator_outputs");
   log.subscribe(6, 0, "sensor_gps");
-  log.subscribe(7, 0, "vehicle_local_position");
+  log.subscribe(7, 0, "vehicle_status");
   log.data(0, 2'000'000, 0.5F, -0.25F, 0.125F, 0.5F, 1.0F, -9.75F);
   log.data(1, 2'000'500, std::uint64_t{2'000'400}, 0.25F, -0.5F, 0.125F);
   log.data(2, 2'100'000, std::uint64_t{1'700'000'000'000'000}, std::int32_t{475'000'000},
@@ -107,7 +107,7 @@ TEST(Ulog, ReadsEachMessageInUnitsOfNavcal) {
   EXPECT_EQ(sink.of_port("battery").at(0).line["voltage_V"], 15.5) << "behind a nested format";
   ASSERT_EQ(sink.of_port("motor").size(), 2U);
   EXPECT_EQ(sink.of_port("motor")[1].line["value"], 1600);
-  EXPECT_EQ(sink.left_counts["vehicle_local_position"], 1);
+  EXPECT_EQ(sink.left_counts["vehicle_status"], 1);
   ASSERT_EQ(findings.remarks.size(), 1U);
   EXPECT_EQ(findings.remarks[0], "1 dropouts of the logger, 50 ms in all");
 }
@@ -227,6 +227,31 @@ TEST(Ulog, TheCalibrationOfTheAutopilotIsUndoneWhereItIsKnown) {
                                                            {"CAL_MAG0_ID", 78.0F},     {"CAL_MAG0_ZSCALE", 0.0F}};
   for (const auto& [name, value] : without)
     expect_vector(field(calibrated_ulog(name, value), false), 25, -50, 12.5);
+}
+
+TEST(Ulog, TheErrorThatTheEstimatorStatesOfItsHeadingGoesWithTheAttitude) {
+  const auto stated = [](const std::string& name, const std::string& members, auto... values) {
+    UlogWriter log;
+    log.message('F', name + ":uint64_t timestamp;" + members);
+    log.message('F', "vehicle_attitude:uint64_t timestamp;float[4] q;");
+    log.subscribe(0, 0, name);
+    log.subscribe(1, 0, "vehicle_attitude");
+    log.data(0, 1'000'000, values...);
+    log.data(1, 1'100'000, 1.0F, 0.0F, 0.0F, 0.0F);
+    RecordingSink sink;
+    (void)read_ulog(log.out, sink);
+    EXPECT_EQ(sink.left_counts[name], 1);
+    return sink.of_port("attitude").at(0).line.value("heading_std_rad", 0.0);
+  };
+  EXPECT_NEAR(stated("vehicle_local_position", "float heading_var;", 0.0025F), 0.05, 1e-6);
+  EXPECT_EQ(stated("vehicle_local_position", "float heading_var;", NAN), 0);
+  EXPECT_EQ(stated("vehicle_local_position", "float x;", 1.0F), 0);
+  std::array<float, 24> variances{0.0003F, 1, 1, 0.0001F}, states{};
+  EXPECT_NEAR(stated("estimator_states", "float[24] states;float[24] covariances;", states, variances), 0.04,
+              1e-6);
+  std::array<float, 25> more_states{};
+  EXPECT_EQ(stated("estimator_states", "float[25] states;float[24] covariances;", more_states, variances), 0)
+      << "variances of angles, not of a quaternion";
 }
 
 TEST(Ulog, EachTypeIsLaidOutOnceHoweverOftenItIsNested) {
