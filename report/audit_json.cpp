@@ -20,6 +20,7 @@ AuditJson finding_json(const analysis::Finding& finding, const std::string& file
           {"value", audit_number(finding.value)},
           {"low", audit_number(finding.low)},
           {"high", audit_number(finding.high)},
+          {"stated", audit_number(finding.stated)},
           {"unit", finding.unit},
           {"cost",
            {{"heading_deg", audit_number(finding.heading_deg)},

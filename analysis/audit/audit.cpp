@@ -25,6 +25,15 @@ void Finding::put(const Bounded& bounds, std::string_view of_unit) {
   unit = of_unit;
 }
 
+bool Finding::is_beyond(double least, double most) {
+  if (*low > most || *high < least) return true;
+  if (*low >= least && *high <= most) return false;
+  certainty = Certainty::cannot_say;
+  sentence += fmt::format(" The interval is too wide to tell whether it is beyond {:.3g} {}", most, unit);
+  sentence.erase(sentence.find_last_not_of(' ') + 1) += '.';
+  return false;
+}
+
 Finding Finding::cannot(std::string why, std::string remedy) const {
   Finding open = *this;
   open.certainty = Certainty::cannot_say;
@@ -77,28 +86,51 @@ std::vector<AuditChange> Audit::changes() const {
 
 namespace {
 
-/// Leaves out the consequences of false rates, and of a tilt by disturbed forces: they have one cause.
+/// Leaves out the consequences of what is wrong with rates or forces: they have one cause.
 void leave_out_consequences(std::vector<Finding>& findings) {
-  const auto leave_out = [&](auto is_cause, std::string_view words, auto... consequences) {
-    const auto found = std::find_if(findings.begin(), findings.end(), is_cause);
+  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also = "delay.") {
+    const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
+      return finding.certainty <= Certainty::likely && is_cause(finding);
+    });
     if (found == findings.end()) return;
     const std::string why = fmt::format("{}: {}", words, found->sentence), todo = found->todo;
     for (Finding& finding : findings) {
-      if ((finding.name.starts_with(consequences) || ...))
-        finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, todo);
+      for (const std::string_view name : {std::string_view("gyro.bias"), std::string_view("gyro.scale"),
+                                          std::string_view("compass.step"), std::string_view("compass.motor"),
+                                          std::string_view("compass.iron"), std::string_view("delay."), also}) {
+        if (finding.name.starts_with(name))
+          finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, todo);
+      }
     }
   };
-  const auto are_rates_false = [](const Finding& finding) {
-    return finding.name.starts_with("convention.") &&
-           (finding.channel.starts_with("rate") || finding.channel == "body");
+  leave_out("The rates are not what they should be", [](const Finding& of) {
+    return of.name.starts_with("convention.") && (of.channel.starts_with("rate") || of.channel == "body");
+  });
+  leave_out(
+      "The forces that tell the tilt are disturbed",
+      [](const Finding& of) { return of.name.starts_with("force."); }, "compass.heading");
+}
+
+/// One quantity in two ways. Where they agree, the first says it. Where not, one of them is wrong: what the first,
+/// which assumes least, says is likely then, and the others say nothing.
+void compare_ways(std::vector<Finding>& findings) {
+  const auto contradicts = [](const Finding& by) {
+    return fmt::format("{} contradicts it: {:.3g} to {:.3g} {}.", by.title, *by.low, *by.high, by.unit);
   };
-  const auto are_forces_disturbed = [](const Finding& finding) {
-    return finding.name.starts_with("force.") && finding.certainty <= Certainty::likely;
-  };
-  leave_out(are_rates_false, "The rates are not what they should be", "gyro.bias", "gyro.scale", "compass.step",
-            "compass.motor", "compass.iron", "delay.");
-  leave_out(are_forces_disturbed, "The forces that tell the tilt are disturbed", "gyro.bias", "gyro.scale",
-            "compass.step", "compass.motor", "compass.iron", "compass.heading", "delay.");
+  for (auto first = findings.begin(); first != findings.end(); ++first) {
+    for (auto other = first + 1; other != findings.end(); ++other) {
+      if (first->quantity.empty() || other->quantity != first->quantity || !first->value || !other->value)
+        continue;
+      if (*first->low <= *other->high && *other->low <= *first->high) {
+        if (first->certainty <= Certainty::likely) other = std::prev(findings.erase(other));
+        continue;
+      }
+      first->sentence += " " + contradicts(*other);
+      if (first->certainty == Certainty::found) first->certainty = Certainty::likely;
+      *other = Finding{other->name, other->title, other->channel}.cannot(contradicts(*first),
+                                                                         "Look which of the two is disturbed.");
+    }
+  }
 }
 
 }  // namespace
@@ -110,6 +142,7 @@ AuditedFile audited(const AuditedLog& log, std::vector<Finding> more) {
     std::move(findings.begin(), findings.end(), std::back_inserter(file.findings));
   }
   leave_out_consequences(file.findings);
+  compare_ways(file.findings);
   sort_findings(file.findings);
   return file;
 }

@@ -38,9 +38,13 @@ struct Finding {
   std::optional<double> heading_deg{}, position_m{};  ///< cost: error of the heading; of the place in ten minutes
   std::string sentence{}, todo{};                     ///< evidence; what to do
   std::optional<AuditPicture> picture{};
+  std::optional<double> stated{};  ///< what the device itself says of `value`, such as the error of its heading
+  std::string quantity{};  ///< "bias of imu.rate_z": that of all findings that state it, each in its own way
 
   void put(const Bounded& bounds, std::string_view of_unit);
   void put_count(double count, std::string_view of_unit) { put({count, count, count}, of_unit); }
+  /// True where the whole interval lies beyond the limits. Where it reaches beyond, it cannot be said.
+  [[nodiscard]] bool is_beyond(double least, double most);
   /// The same as a finding that cannot be made.
   [[nodiscard]] Finding cannot(std::string why, std::string remedy = {}) const;
   /// The cost of a heading that is off by so much all the time.

@@ -10,6 +10,7 @@
 #include "analysis/import/import_log.h"
 #include "analysis/noise/channel_collector.h"
 #include "analysis/replay_run.h"
+#include "base/angles.h"
 #include "base/durations.h"
 #include "base/failure.h"
 #include "base/temporary_folder.h"
@@ -70,8 +71,14 @@ class AuditSink final : public ReplaySink {
   void take(const Value& value, std::uint16_t port, double time_s) {
     if constexpr (!std::is_same_v<Value, instruments::SkySample>) {
       OpenStream& open = streams_[{port, instruments::kKind<Value>.name}];
-      if constexpr (std::is_same_v<Value, instruments::CompassSample>)
+      if constexpr (std::is_same_v<Value, instruments::CompassSample>) {
         compare(open, {value.field_body_uT, {}}, time_s);
+        if (value.heading_std_rad) {
+          Series& stated = log_.heading_std_deg[settings_.ports.at(port).name];
+          stated.time_s.push_back(time_s);
+          stated.values.push_back(*value.heading_std_rad * base::kDegreesPerRadian);
+        }
+      }
       if constexpr (std::is_same_v<Value, instruments::ImuSample>)
         compare(open, {value.rate_rad_s, value.specific_force_m_s2}, time_s);
       open.stream.time_s.push_back(time_s);

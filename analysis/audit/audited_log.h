@@ -56,6 +56,8 @@ struct AuditedLog {
   std::optional<pipeline::EarthField> earth;
   std::string compass;  ///< port from which the calibrators learn; empty: none
   AuditedCalibration whole;
+  /// Standard errors of headings by port: constant where they are those of the configuration.
+  std::map<std::string, Series> heading_std_deg;
   std::array<AuditedCalibration, 2> halves;  ///< fitted to the first and to the second half only
   std::vector<std::string> remarks;
 

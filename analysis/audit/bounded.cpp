@@ -8,7 +8,7 @@
 namespace navcal::analysis {
 namespace {
 
-constexpr std::size_t kMeans = 10, kFewestMeans = 4;
+constexpr std::size_t kFewestMeans = 4;
 constexpr double kNormal = 1.96;
 
 /// The 97.5 % point of Student's t, within 1 % from 3 degrees of freedom on.
@@ -30,20 +30,20 @@ std::optional<Bounded> mean_bounded(const std::vector<double>& numbers) {
 }
 
 std::vector<double> block_means(const std::vector<double>& time_s, const std::vector<double>& values,
-                                std::size_t least) {
+                                std::size_t least, std::size_t blocks) {
   std::vector<double> means;
   if (time_s.empty()) return means;
   const auto [first, last] = std::minmax_element(time_s.begin(), time_s.end());
-  const double length_s = (*last - *first) / static_cast<double>(kMeans);
-  std::vector<double> sums(kMeans);
-  std::vector<std::size_t> counts(kMeans);
+  const double length_s = (*last - *first) / static_cast<double>(blocks);
+  std::vector<double> sums(blocks);
+  std::vector<std::size_t> counts(blocks);
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const double place = length_s > 0 ? (time_s[i] - *first) / length_s : 0;
-    const std::size_t block = std::min(static_cast<std::size_t>(place), kMeans - 1);
+    const std::size_t block = std::min(static_cast<std::size_t>(place), blocks - 1);
     sums[block] += values[i];
     ++counts[block];
   }
-  for (std::size_t i = 0; i < kMeans; ++i) {
+  for (std::size_t i = 0; i < blocks; ++i) {
     if (counts[i] >= least) means.push_back(sums[i] / static_cast<double>(counts[i]));
   }
   return means;

@@ -18,9 +18,9 @@ struct Bounded {
 /// fewer than four.
 [[nodiscard]] std::optional<Bounded> mean_bounded(const std::vector<double>& numbers);
 
-/// Means of `values` in ten blocks of equal length in time. Blocks with fewer than `least` values are left out.
+/// Means of `values` in blocks of equal length in time. Blocks with fewer than `least` values are left out.
 [[nodiscard]] std::vector<double> block_means(const std::vector<double>& time_s, const std::vector<double>& values,
-                                              std::size_t least = 5);
+                                              std::size_t least = 5, std::size_t blocks = 10);
 
 /// Root of the mean square, with the interval from ten blocks. nullopt for fewer than four blocks.
 [[nodiscard]] std::optional<Bounded> root_mean_square_bounded(const std::vector<double>& time_s,

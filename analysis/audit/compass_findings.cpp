@@ -50,24 +50,21 @@ struct HeldOutWords {
 HeldOutWords held_out_words(const calib::CalibratorReport& report, const IronErrors& errors) {
   const auto& judgement = report.judgement;
   const double before = judgement.held_out_before, after = judgement.held_out_after;
-  HeldOutWords said{after < before, false, {}};
-  if (errors.spread_before) {
-    said = {*errors.spread_after<*errors.spread_before, *errors.spread_after> * errors.spread_before,
-            fmt::format(
-                "The size of the field spreads by {:.2f} % as measured, and by {:.2f} % with a calibration from "
-                "the other half of the log.",
-                100 * *errors.spread_before, 100 * *errors.spread_after)};
-  } else if (judgement.held_out_quantity == calib::HeldOutQuantity::field) {
-    said.words =
-        fmt::format("On held-out readings the field spreads by {:.2f} % as measured and by {:.2f} % calibrated.",
-                    100 * before, 100 * after);
-  } else if (judgement.held_out_quantity == calib::HeldOutQuantity::heading) {
-    said.words = fmt::format(
-        "On held-out readings the heading is {:.2f} deg off the gyro's as measured and {:.2f} deg "
-        "calibrated.",
-        before * kDegreesPerRadian, after * kDegreesPerRadian);
-  }
-  return said;
+  const auto spread = [](double from, double to, const char* by) {
+    return HeldOutWords{to<from, to> from,
+                        fmt::format("The size of the field spreads by {:.2f} % as measured, and by {:.2f} % {}.",
+                                    100 * from, 100 * to, by)};
+  };
+  if (errors.spread_before)
+    return spread(*errors.spread_before, *errors.spread_after,
+                  "with a calibration from the other half of the log");
+  if (judgement.held_out_quantity == calib::HeldOutQuantity::field)
+    return spread(before, after, "calibrated, both on held-out readings");
+  if (judgement.held_out_quantity != calib::HeldOutQuantity::heading) return {};
+  return {after<before, after> before,
+          fmt::format("On held-out readings the heading is {:.2f} deg off the gyro's as measured and {:.2f} deg "
+                      "calibrated.",
+                      before * kDegreesPerRadian, after * kDegreesPerRadian)};
 }
 
 Finding iron_finding(const AuditedLog& log) {
@@ -75,10 +72,12 @@ Finding iron_finding(const AuditedLog& log) {
   const auto* report = log.whole.report.find(Calibrator::magnetometer);
   const auto& correction = log.whole.report.estimates.magnetometer;
   if (report == nullptr) return finding.cannot("The compass sends no field.");
-  if (!report->judgement.accepted || !correction) return refused(finding, *report);
+  const calib::Quantity* const std = report->quantity("worst_heading_rad");
+  const bool is_accepted = report->judgement.accepted;
+  const Finding open = refused(finding, *report);
+  if (!correction || !(is_accepted || (std != nullptr && std::isfinite(std->std)))) return open;
   const IronErrors errors = iron_errors(log, *correction);
   const HeldOutWords held_out = held_out_words(*report, errors);
-  const calib::Quantity* const std = report->quantity("worst_heading_rad");
   const double half_deg =
       kDegreesPerRadian * std::max(std != nullptr ? 1.96 * std->std : 0, errors.disagreement_rad.value_or(0));
   const double worst_deg = errors.worst_rad * kDegreesPerRadian, low_deg = std::max(worst_deg - half_deg, 0.0);
@@ -87,16 +86,21 @@ Finding iron_finding(const AuditedLog& log) {
       "Iron of {} uT, or a steady current or a mounting askew that look like it, turns the heading of the field "
       "by up to {:.1f} deg. {}",
       vector_text(correction->offset_uT, 1), worst_deg, held_out.words);
-  if (report->outcome == calib::Outcome::no_better || low_deg < kLeastHeading_deg) return finding;
-  finding.certainty = held_out.is_worse    ? Certainty::cannot_say
-                      : held_out.is_better ? Certainty::found
-                                           : Certainty::likely;
+  const bool is_beyond = finding.is_beyond(0, kLeastHeading_deg);
+  // A calibrator refuses what is too uncertain to correct by; less tells that there is iron.
+  if (!is_accepted && !(is_beyond && held_out.is_better)) return open;
+  if (!is_beyond) return finding;
+  finding.certainty = held_out.is_worse || report->outcome == calib::Outcome::no_better ? Certainty::cannot_say
+                      : held_out.is_better && is_accepted                               ? Certainty::found
+                                                                                        : Certainty::likely;
   finding.todo = "Look for a step of the field, or turn through all headings twice.";
-  if (held_out.is_worse) return finding;
-  finding.todo = fmt::format(
-      "Calibrate the compass: navcal calibrate. ArduPilot, with COMPASS_DIA of 1: add {} to COMPASS_OFS_X, Y and "
-      "Z.",
-      vector_text(-kMilligauss * correction->offset_uT, 0));
+  if (finding.certainty == Certainty::cannot_say) return finding;
+  finding.todo = !is_accepted ? open.todo
+                              : fmt::format(
+                                    "Calibrate the compass: navcal calibrate. ArduPilot, with COMPASS_DIA of 1: "
+                                    "add {} to COMPASS_OFS_X, Y and Z.",
+                                    vector_text(-kMilligauss * correction->offset_uT, 0));
+  if (!is_accepted) finding.sentence += " It is not determined well enough to correct by it: " + open.sentence;
   finding.put_heading(worst_deg, log.speed_m_s());
   finding.picture = field_picture(log.whole.samples, *correction);
   return finding;
@@ -188,17 +192,30 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
   Finding finding{"compass.heading", "Stated heading", channel.port};
   const auto errors = heading_errors(log, channel);
   const auto value = errors ? root_mean_square_bounded(errors->time_s, errors->error_deg) : std::nullopt;
+  const auto own = log.heading_std_deg.find(channel.port);
+  const bool is_stated =
+      own != log.heading_std_deg.end() && quantile(own->second.values, 0) < quantile(own->second.values, 1);
+  if (is_stated) finding.stated = quantile(own->second.values, 0.5);
   if (!value)
     return finding.cannot(
-        "The compass could not be calibrated, or the field stepped, so that nothing judges this heading.",
+        "The compass could not be calibrated, or the field stepped, so that nothing judges this heading" +
+            (finding.stated ? fmt::format(", nor the error of {:.1f} deg that it states.", *finding.stated)
+                            : std::string(".")),
         "Turn through all headings twice.");
+  if (is_stated && errors->stated_deg) finding.stated = errors->stated_deg;
   const double own_deg = 1.96 * errors->reference_std_rad * kDegreesPerRadian;
   finding.put({value->value, std::max(value->low - own_deg, 0.0), value->high + own_deg}, "deg");
   finding.sentence = fmt::format(
       "This heading is {:.1f} deg (root mean square) off that of the field, calibrated on the {} log{}.",
       value->value, errors->is_of_other_half ? "other half of the" : "whole",
       errors->is_absolute ? "" : "; a constant part cannot be told and is left out");
-  if (*finding.low <= kStatedHeading_deg) return finding;
+  finding.sentence += !finding.stated
+                          ? " It states no error of its own."
+                          : fmt::format(" It states an error of {:.1f} deg, which {}.", *finding.stated,
+                                        *finding.low > *finding.stated ? "does not hold"
+                                        : errors->is_absolute          ? "holds"
+                                                                       : "holds but for that part");
+  if (!finding.is_beyond(0, kStatedHeading_deg)) return finding;
   finding.certainty = channel.port == log.compass ? Certainty::found : Certainty::likely;
   finding.todo = "Calibrate the compass that this heading comes from, then compare again.";
   finding.put_heading(value->value, log.speed_m_s());
@@ -233,7 +250,7 @@ Finding pair_finding(const AuditedLog& log, const std::string& first, const std:
   finding.put({value->value, std::max(value->low, 0.0), value->high}, "deg");
   finding.sentence = fmt::format("The headings of the two fields are {:.1f} deg apart in the mean{}.",
                                  value->value, field.is_levelled ? "" : ", the vehicle taken as level");
-  if (*finding.low <= kPair_deg) return finding;
+  if (!finding.is_beyond(0, kPair_deg)) return finding;
   finding.certainty = Certainty::found;
   finding.sentence += " At least one has iron, or is mounted otherwise than stated; the log does not tell which.";
   finding.todo = "Check the mounting of both, then calibrate both.";

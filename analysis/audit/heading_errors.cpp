@@ -55,6 +55,12 @@ double spread_of(const std::vector<double>& sizes) {
 
 constexpr double kMostApart_s = 0.5;
 
+/// Vector of three channels of one port, such as field_x, field_y and field_z; not a number where there is none.
+Eigen::Vector3d vector_at(const AuditedLog& log, const std::string& port, const std::string& of, double time_s) {
+  const auto axis = [&](const char* name) { return log.at(port, of + name, time_s, kMostApart_s).value_or(NAN); };
+  return {axis("_x"), axis("_y"), axis("_z")};
+}
+
 }  // namespace
 
 IronErrors iron_errors(const AuditedLog& log, const FieldCorrection& correction) {
@@ -120,6 +126,8 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   errors.is_absolute =
       is_own || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
   const double declination_rad = is_own || !log.earth ? 0 : log.earth->declination_rad;
+  const auto own = log.heading_std_deg.find(heading.port);
+  double squares = 0, count = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (std::size_t half = 0; half < 2; ++half) {
     const auto& judge = errors.is_of_other_half ? log.halves.at(half).report : log.whole.report;
@@ -136,8 +144,12 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
       errors.time_s.push_back(time_s);
       errors.heading_deg.push_back(base::positive_angle(reference_rad) * base::kDegreesPerRadian);
       errors.error_deg.push_back(error_rad * base::kDegreesPerRadian);
+      if (own == log.heading_std_deg.end()) continue;
+      if (const auto own_deg = value_at(own->second, time_s, kMostApart_s))
+        squares += *own_deg * *own_deg, ++count;
     }
   }
+  if (count > 0) errors.stated_deg = std::sqrt(squares / count);
   const double mean_deg = errors.is_absolute ? 0 : std::atan2(sum.y(), sum.x()) * base::kDegreesPerRadian;
   for (double& error_deg : errors.error_deg) error_deg = std::remainder(error_deg - mean_deg, 360.0);
   return errors;
@@ -146,10 +158,6 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
 FieldComparison compare_fields(const AuditedLog& log, const std::string& first, const std::string& second) {
   FieldComparison fields;
   const auto rolls = log.all("roll"), pitches = log.all("pitch");
-  const auto field_at = [&](const std::string& port, double time_s) {
-    const auto axis = [&](const char* name) { return log.at(port, name, time_s, kMostApart_s).value_or(NAN); };
-    return Eigen::Vector3d(axis("field_x"), axis("field_y"), axis("field_z"));
-  };
   const auto tilt_at = [&](const std::vector<const RecordedChannel*>& tilts, double time_s) {
     const auto tilt_deg = value_at(tilts.front()->series, time_s, kMostApart_s);
     return tilt_deg ? *tilt_deg * base::kRadiansPerDegree : NAN;
@@ -158,7 +166,8 @@ FieldComparison compare_fields(const AuditedLog& log, const std::string& first, 
   const RecordedChannel* const times = log.find(first, "field_x");
   if (times == nullptr) return fields;
   for (const double time_s : times->series.time_s) {
-    const Eigen::Vector3d one_uT = field_at(first, time_s), other_uT = field_at(second, time_s);
+    const Eigen::Vector3d one_uT = vector_at(log, first, "field", time_s),
+                          other_uT = vector_at(log, second, "field", time_s);
     const double roll_rad = fields.is_levelled ? tilt_at(rolls, time_s) : 0;
     const double pitch_rad = fields.is_levelled ? tilt_at(pitches, time_s) : 0;
     if (!one_uT.allFinite() || !other_uT.allFinite() || !std::isfinite(roll_rad + pitch_rad)) continue;

@@ -27,9 +27,10 @@ struct IronErrors {
 /// A stated heading less the heading of the calibrated field.
 struct HeadingErrors {
   std::vector<double> time_s, heading_deg, error_deg;
-  double reference_std_rad = 0;  ///< of the calibrated heading, at its worst heading
-  bool is_absolute = false;      ///< false: the mean is left out
-  bool is_of_other_half = true;  ///< false: the field was calibrated on the whole log
+  double reference_std_rad = 0;        ///< of the calibrated heading, at its worst heading
+  bool is_absolute = false;            ///< false: the mean is left out
+  bool is_of_other_half = true;        ///< false: the field was calibrated on the whole log
+  std::optional<double> stated_deg{};  ///< root mean square of the standard errors that the device itself states
 };
 /// nullopt where the log has no accepted calibration, or the field stepped.
 [[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);

@@ -18,13 +18,20 @@ constexpr double kLeastBias_deg_s = 0.02, kAlone_s = 60;  ///< smallest bias; ti
 constexpr double kLeastScale = 0.02, kTurn_deg = 90;
 constexpr double kSome_m_s2 = 30, kMuch_m_s2 = 60;  ///< vibration at which ArduPilot warns, and at which it fails
 
+/// An interval beyond the limits, which held-out readings confirm.
+bool is_found(Finding& finding, double least, double most, bool is_confirmed) {
+  if (!finding.is_beyond(least, most)) return false;
+  finding.certainty = is_confirmed ? Certainty::found : Certainty::cannot_say;
+  if (!is_confirmed) finding.sentence += " No held-out readings confirm it.";
+  return is_confirmed;
+}
+
 /// A bias whose interval leaves out small ones.
 void judge_bias(Finding& finding, const Bounded& bias, bool is_confirmed, bool is_vertical,
                 const AuditedLog& log) {
   finding.put(bias, "deg/s");
-  const double least = std::min(std::abs(bias.low), std::abs(bias.high));
-  if (!is_confirmed || bias.low * bias.high < 0 || least < kLeastBias_deg_s) return;
-  finding.certainty = Certainty::found;
+  finding.quantity = "bias of " + finding.channel;
+  if (!is_found(finding, -kLeastBias_deg_s, kLeastBias_deg_s, is_confirmed)) return;
   finding.todo = "Calibrate the gyro at rest before each mission.";
   if (!is_vertical) return;
   finding.put_heading(std::min(std::abs(bias.value) * kAlone_s, 180.0), log.speed_m_s());
@@ -37,12 +44,14 @@ void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibr
   const auto* const report = log.whole.report.find(calibrator);
   const auto rates = log.all(quantity);
   if (report == nullptr || rates.empty()) return;
-  Finding of_bias{"gyro.bias", "Bias of the gyro", rates.front()->name()};
+  Finding of_bias{"gyro.bias", "Bias of the gyro by its turns", rates.front()->name()};
   Finding of_scale{"gyro.scale", "Scale of the gyro", rates.front()->name()};
   const calib::Quantity *const bias = report->quantity("bias_rad_s"), *const scale = report->quantity("scale");
   const auto& judgement = report->judgement;
-  if (!judgement.accepted || bias == nullptr || scale == nullptr)
-    return findings.push_back(refused(of_bias, *report));
+  if (!judgement.accepted || bias == nullptr || scale == nullptr) {
+    findings.insert(findings.end(), {refused(of_bias, *report), refused(of_scale, *report)});
+    return;
+  }
   const bool is_confirmed = report->outcome == calib::Outcome::accepted &&
                             judgement.held_out_quantity == calib::HeldOutQuantity::heading &&
                             judgement.held_out_after < judgement.held_out_before;
@@ -60,50 +69,43 @@ void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibr
   judge_bias(of_bias, bounded(rest_deg_s, bias->std * kDegreesPerRadian), is_confirmed, true, log);
   of_scale.put(bounded(scale->value, scale->std), "");
   of_scale.sentence = fmt::format("True rate over measured rate is {:.4f}.{}", scale->value, held_out);
-  if (is_confirmed && (*of_scale.low > 1 + kLeastScale || *of_scale.high < 1 - kLeastScale)) {
-    of_scale.certainty = Certainty::found;
+  if (is_found(of_scale, 1 - kLeastScale, 1 + kLeastScale, is_confirmed)) {
     of_scale.todo = "Multiply the rate by this number.";
     of_scale.put_heading(kTurn_deg * std::abs(scale->value - 1), log.speed_m_s());
     of_scale.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg.", kTurn_deg);
   }
-  // A bias that shows itself at rest is said once.
-  const bool is_known = std::any_of(findings.begin(), findings.end(), [&](const Finding& at_rest) {
-    return at_rest.channel == of_bias.channel && at_rest.certainty == Certainty::found &&
-           *at_rest.low <= *of_bias.high && *of_bias.low <= *at_rest.high;
-  });
-  if (!is_known) findings.push_back(std::move(of_bias));
+  findings.push_back(std::move(of_bias));
   findings.push_back(std::move(of_scale));
 }
 
-/// Means of a channel over thirds of the parts at rest.
+/// Means of a channel over parts of the times at rest: thirds, or sixths of a single one.
 std::vector<double> means_at_rest(const AuditedLog& log, const Series& series) {
+  constexpr std::size_t kThirds = 3;
   std::vector<double> means;
   for (const Interval& interval : log.rest) {
-    for (int part = 0; part < 3; ++part) {
-      const double from_s = interval.from_s + part * interval.length_s() / 3,
-                   to_s = from_s + interval.length_s() / 3;
-      double sum = 0, count = 0;
-      for (std::size_t i = 0; i < series.values.size(); ++i) {
-        if (series.time_s[i] < from_s || series.time_s[i] >= to_s) continue;
-        sum += series.values[i];
-        ++count;
-      }
-      if (count > 0) means.push_back(sum / count);
-    }
+    const auto place = [&](double time_s) {
+      return std::lower_bound(series.time_s.begin(), series.time_s.end(), time_s) - series.time_s.begin();
+    };
+    const auto first = place(interval.from_s), last = place(interval.to_s);
+    const auto parts = block_means({series.time_s.begin() + first, series.time_s.begin() + last},
+                                   {series.values.begin() + first, series.values.begin() + last}, 1,
+                                   log.rest.size() > 1 ? kThirds : 2 * kThirds);
+    means.insert(means.end(), parts.begin(), parts.end());
   }
   return means;
 }
 
 void append_at_rest(std::vector<Finding>& findings, const AuditedLog& log) {
-  for (const char* axis : {"rate_x", "rate_y", "rate_z"}) {
+  for (const char* axis : {"rate_x", "rate_y", "rate_z", "yaw_rate_b"}) {
     for (const RecordedChannel* channel : log.all(axis)) {
       Finding& finding = findings.emplace_back(Finding{"gyro.rest", "Bias of the gyro at rest", channel->name()});
       if (const auto bias = mean_bounded(means_at_rest(log, channel->series))) {
         finding.sentence = fmt::format("At rest it shows {:.4f} deg/s.", bias->value);
-        judge_bias(finding, *bias, true, channel->quantity == "rate_z", log);
+        judge_bias(finding, *bias, true,
+                   axis == std::string_view("rate_z") || axis == std::string_view("yaw_rate_b"), log);
       } else {
         finding.certainty = Certainty::cannot_say;
-        finding.sentence = "The vehicle was not at rest twice, for ten seconds each.";
+        finding.sentence = "The vehicle was not at rest for ten seconds.";
         finding.todo = "Leave the vehicle still for half a minute before and after the mission.";
       }
     }
@@ -203,7 +205,10 @@ Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Cali
   finding.put({delay_s, delay_s - half_s, delay_s + half_s}, "s");
   finding.sentence = fmt::format("The {} by {:.0f} ms{}.", words, 1000 * delay_s,
                                  are_both ? ", which each half of the log confirms" : "");
-  if (*finding.low > least_s || *finding.high < -least_s) {
+  if (calibrator == Calibrator::course_delay && *finding.high < -least_s) {
+    finding = finding.cannot(finding.sentence +
+                             " No receiver is early: the heading is late, or a stated latency wrong.");
+  } else if (finding.is_beyond(-least_s, least_s)) {
     finding.certainty = are_both ? Certainty::found : Certainty::likely;
     finding.todo = "Give the later sensor its latency in the configuration of the estimator.";
     finding.put_heading(std::abs(delay_s) * kRate_deg_s, log.speed_m_s());

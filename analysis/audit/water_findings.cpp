@@ -46,7 +46,7 @@ Finding surface_finding(const AuditedLog& log, const RecordedChannel& depth) {
   finding.put(*offset, "m");
   finding.sentence = fmt::format("While a receiver has a fix the gauge shows {:.2f} m.", offset->value);
   // The gauge may hang below the antenna.
-  if (offset->low > kLeastDepth_m || offset->high < -kLeastDepth_m) finding.certainty = Certainty::likely;
+  if (finding.is_beyond(-kLeastDepth_m, kLeastDepth_m)) finding.certainty = Certainty::likely;
   return finding;
 }
 
@@ -132,7 +132,7 @@ Finding doppler_scale(const AuditedLog& log, const std::string& port) {
                           "Run at the surface with bottom lock for some minutes.");
   finding.put({std::exp(mean->value), std::exp(mean->low), std::exp(mean->high)}, "");
   finding.sentence = fmt::format("Speed of the receiver over that of the Doppler log is {:.3f}.", *finding.value);
-  if (*finding.low <= 1 + kLeastRatio && *finding.high >= 1 - kLeastRatio) return finding;
+  if (!finding.is_beyond(1 - kLeastRatio, 1 + kLeastRatio)) return finding;
   finding.certainty = Certainty::likely;
   finding.position_m = std::abs(*finding.value - 1) * log.speed_m_s() * kCostTime_s;
   finding.todo = "Check the speed of sound that the Doppler log reckons with.";

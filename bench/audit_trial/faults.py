@@ -10,6 +10,7 @@ import math
 from writers import Sample
 
 ALL = ("capture", "dataflash", "ulog", "tlog")
+OWN_TIMES = ("capture", "dataflash", "ulog")  # in a telemetry log the field comes with the rates
 ITS_HEADING = "compass.heading"
 
 
@@ -260,12 +261,13 @@ FAULTS = [
     Fault("scale of the Doppler log", "dvl", ("dvl.scale",), (0.05, 0.1, 0.2), plant=dvl_scale, forms=("capture",), needs=("dvl",)),
     Fault("zeros of the Doppler log", "dvl", ("dvl.zeros",), (4, 12, 40), plant=dvl_zeros, also=("dvl.scale",),
           forms=("capture",), needs=("dvl",)),
-    Fault("lost samples", "sampling", ("sampling.gaps",), (5, 9, 14), plant=lost_samples, also=("sampling.irregular",)),
+    Fault("lost samples", "sampling", ("sampling.gaps",), (5, 9, 14), plant=lost_samples, also=("sampling.irregular",),
+          forms=OWN_TIMES),
     Fault("repeated values", "sampling", ("sampling.repeated",), (30, 50, 70), plant=repeated,
-          forms=("capture", "dataflash", "ulog")),
-    Fault("frozen values", "sampling", ("sampling.repeated",), (4, 8, 16), plant=frozen, forms=("capture", "dataflash", "ulog")),
+          also=("delay.compass",), forms=OWN_TIMES),  # a reading that is repeated is late
+    Fault("frozen values", "sampling", ("sampling.repeated",), (4, 8, 16), plant=frozen, forms=OWN_TIMES),
     Fault("times in disorder", "sampling", ("sampling.order",), (0.5, 1.5, 5), plant=disorder,
-          also=("sampling.irregular", "sampling.gaps")),
+          also=("sampling.irregular", "sampling.gaps"), forms=OWN_TIMES),
     Fault("vibration", "force", ("force.vibration",), (40, 70, 120), plant=vibration),
     Fault("clipping", "force", ("force.clipping",), (1.2, 1.7, 2.2), plant=clipping, also=("force.vibration",)),
     Fault("heading off", "heading", (ITS_HEADING,), (5, 10, 20), plant=heading_off, forms=("dataflash", "ulog", "tlog")),
