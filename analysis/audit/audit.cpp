@@ -86,7 +86,7 @@ std::vector<AuditChange> Audit::changes() const {
 
 namespace {
 
-/// Leaves out the consequences of what is wrong with rates or forces: they have one cause.
+/// Leaves out the consequences of what is wrong with rates, forces or axes: they have one cause.
 void leave_out_consequences(std::vector<Finding>& findings) {
   const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also = "delay.") {
     const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
@@ -103,9 +103,15 @@ void leave_out_consequences(std::vector<Finding>& findings) {
       }
     }
   };
-  leave_out("The rates are not what they should be", [](const Finding& of) {
-    return of.name.starts_with("convention.") && (of.channel.starts_with("rate") || of.channel == "body");
-  });
+  leave_out(
+      "The rates are not what they should be",
+      [](const Finding& of) {
+        return of.name.starts_with("convention.") && (of.channel.starts_with("rate") || of.channel == "body");
+      },
+      "compass.axes");
+  leave_out(
+      "The axes of the field are not what they should be",
+      [](const Finding& of) { return of.name == "compass.axes"; }, "compass.heading");
   leave_out(
       "The forces that tell the tilt are disturbed",
       [](const Finding& of) { return of.name.starts_with("force."); }, "compass.heading");

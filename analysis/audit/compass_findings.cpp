@@ -242,6 +242,27 @@ Finding size_finding(const AuditedLog& log, const std::string& port) {
   return finding;
 }
 
+Finding axes_finding(const AuditedLog& log, const std::string& port) {
+  constexpr double kWorse = 3, kFollows = 0.25;
+  Finding finding{"compass.axes", "Axes of the field", port};
+  const auto axes = field_axes(log, port);
+  if (!axes) return finding.cannot("The log has no rates, or the vehicle hardly turned.");
+  finding.sentence = fmt::format("The changes of the field follow the rates within {:.2f} uT.", axes->sent_uT);
+  if (axes->best_uT > kFollows * axes->changed_uT)
+    return finding.cannot(fmt::format(
+        "Whatever its axes, the field does not follow the rates: of changes of {:.1f} uT {:.1f} are left.",
+        axes->changed_uT, axes->best_uT));
+  if (axes->sent_uT <= kWorse * axes->best_uT) return finding;
+  finding.certainty = Certainty::likely;
+  finding.sentence += fmt::format(
+      " With axes {}, or all of these reversed, within {:.2f} uT: axes are exchanged or reversed, of the field or "
+      "of "
+      "the rates.",
+      axes->best, axes->best_uT);
+  finding.todo = "Set the mounting of the compass (ArduPilot: COMPASS_ORIENT), then calibrate it.";
+  return finding;
+}
+
 Finding pair_finding(const AuditedLog& log, const std::string& first, const std::string& second) {
   Finding finding{"compass.pair", "Two compasses", first + ", " + second};
   const FieldComparison field = compare_fields(log, first, second);
@@ -275,6 +296,7 @@ std::vector<Finding> compass_findings(const AuditedLog& log) {
   const auto fields = log.all("field_x");
   for (std::size_t i = 0; i < fields.size(); ++i) {
     findings.push_back(size_finding(log, fields[i]->port));
+    findings.push_back(axes_finding(log, fields[i]->port));
     for (std::size_t j = i + 1; j < fields.size(); ++j)
       findings.push_back(pair_finding(log, fields[i]->port, fields[j]->port));
   }

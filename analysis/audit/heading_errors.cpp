@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/audit/heading_errors.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/angles.h"
 #include "base/durations.h"
@@ -153,6 +158,64 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   const double mean_deg = errors.is_absolute ? 0 : std::atan2(sum.y(), sum.x()) * base::kDegreesPerRadian;
   for (double& error_deg : errors.error_deg) error_deg = std::remainder(error_deg - mean_deg, 360.0);
   return errors;
+}
+
+std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& port) {
+  constexpr double kTurn_rad = 0.2, kLongest_s = 10, kRidge = 1e-6;
+  constexpr std::size_t kFewest = 15;
+  struct Turn {
+    Eigen::Vector3d before, after;
+    Eigen::Matrix3d back;  ///< after = back * before, of the Earth's field
+  };
+  std::vector<Turn> turns;
+  const auto rates = log.all("rate_x");
+  double begin_s = -INFINITY, last_s = -INFINITY;
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (const double time_s : rates.empty() ? std::vector<double>() : rates.front()->series.time_s) {
+    const Eigen::Vector3d angle_rad = vector_at(log, rates.front()->port, "rate", time_s) *
+                                      (base::kRadiansPerDegree * (time_s - std::exchange(last_s, time_s)));
+    if (angle_rad.allFinite()) turned *= Eigen::AngleAxisd(angle_rad.norm(), angle_rad.normalized()).matrix();
+    const bool is_turn = Eigen::AngleAxisd(turned).angle() > kTurn_rad && time_s - begin_s < kLongest_s;
+    if (!is_turn && time_s - begin_s < kLongest_s) continue;
+    const Eigen::Vector3d after = vector_at(log, port, "field", time_s);
+    if (is_turn && (before + after).allFinite()) turns.push_back({before, after, turned.transpose()});
+    before = after;
+    begin_s = time_s;
+    turned.setIdentity();
+  }
+  if (turns.size() < kFewest) return std::nullopt;
+  FieldAxes found{0, INFINITY, INFINITY, {}};
+  for (const Turn& one : turns)
+    found.changed_uT += (one.after - one.before).norm() / static_cast<double>(turns.size());
+  std::array<Eigen::Index, 3> order{0, 1, 2};
+  do {
+    for (Eigen::Index reversed = -1; reversed < 3; ++reversed) {
+      Eigen::Matrix3d axes = Eigen::Matrix3d::Zero(), square = kRidge * Eigen::Matrix3d::Identity();
+      std::string names;
+      for (Eigen::Index i = 0; const Eigen::Index from : order) {
+        axes(i, from) = i == reversed ? -1 : 1;
+        names += fmt::format("{}{}{}", names.empty() ? "" : ", ", i++ == reversed ? "-" : "", "xyz"[from]);
+      }
+      Eigen::Vector3d product = Eigen::Vector3d::Zero(), iron_uT = product;
+      double squares = 0;
+      // after - iron = back * (before - iron): by the even turns, judged on the odd ones.
+      for (const std::size_t first : {0, 1}) {
+        for (std::size_t i = first; i < turns.size(); i += 2) {
+          const Eigen::Matrix3d by_iron = Eigen::Matrix3d::Identity() - turns[i].back;
+          const Eigen::Vector3d change_uT = axes * turns[i].after - turns[i].back * axes * turns[i].before;
+          square += by_iron.transpose() * by_iron;
+          product += by_iron.transpose() * change_uT;
+          squares += static_cast<double>(first) * (change_uT - by_iron * iron_uT).squaredNorm();
+        }
+        if (first == 0) iron_uT = square.inverse() * product;
+      }
+      const double left_uT = std::sqrt(squares / static_cast<double>(turns.size() / 2));
+      if (found.best.empty()) found.sent_uT = left_uT;
+      if (left_uT < found.best_uT) found = {found.changed_uT, found.sent_uT, left_uT, names};
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return found;
 }
 
 FieldComparison compare_fields(const AuditedLog& log, const std::string& first, const std::string& second) {

@@ -35,6 +35,15 @@ struct HeadingErrors {
 /// nullopt where the log has no accepted calibration, or the field stepped.
 [[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
 
+/// What the rates leave of the changes of a field while the vehicle turns, root mean square: as sent, and with the
+/// axes that agree best. Every other turn is judged. All three axes reversed is no change: hard iron is free.
+struct FieldAxes {
+  double changed_uT = 0, sent_uT = 0, best_uT = 0;  ///< the first: mean size of the changes
+  std::string best;                                 ///< "-x, z, y"
+};
+/// nullopt for fewer than 15 turns of 0.2 rad within 10 s.
+[[nodiscard]] std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& port);
+
 /// The fields of two ports at the times of the first.
 struct FieldComparison {
   std::vector<double> time_s, size_uT, apart_deg;  ///< size of the first; between the headings of both, 0 to 180

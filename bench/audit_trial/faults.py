@@ -250,7 +250,7 @@ FAULTS = [
           value=lambda size, b, truth: size, also=(ITS_HEADING, "compass.iron")),
     Fault("scale of the gyro", "gyro", ("gyro.scale",), (0.04, 0.08, 0.16), gyro_scale, value=lambda size, k, truth: 1 / (1 + k)),
     Fault("bias of the gyro", "gyro", ("gyro.bias", "gyro.rest"), (0.1, 0.3, 1), plant=gyro_bias),
-    Fault("sign of the gyro", "gyro", rates_less(("sign", "body_frame")), (1, 2, 3), plant=gyro_sign,
+    Fault("sign of the gyro", "gyro", rates_less(("sign", "body_frame")) + ("compass.axes",), (1, 2, 3), plant=gyro_sign,
           also=("gyro.scale", "convention.axis_swapped")),
     Fault("unit of the gyro", "gyro", rates_less(("degrees_for_radians",)), (1, 1, 1), plant=gyro_unit, also=("gyro.scale",),
           forms=("capture", "dataflash", "ulog")),

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "analysis/audit/bounded.h"
@@ -317,6 +319,46 @@ TEST(Audit, AReceiverIsNeverEarly) {
   EXPECT_EQ(find(inertial_findings(log), "delay.course")->certainty, Certainty::cannot_say);
   log.whole.report.calibrators = {delay_of(calib::Calibrator::course_delay, 0.8, 0.1, true)};
   EXPECT_EQ(find(inertial_findings(log), "delay.course")->certainty, Certainty::likely);
+}
+
+/// A vehicle that turns and tilts slowly, 10 readings a second; `axes` makes the field that is sent.
+AuditedLog turning(const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& axes) {
+  constexpr double kStep_s = 0.1;
+  std::array<std::vector<double>, 6> values;
+  Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d rate_rad_s(0.1 * std::sin(0.02 * i), 0.1 * std::cos(0.013 * i), 0.2);
+    const Eigen::Vector3d iron_uT(3, -5, 4);
+    const Eigen::Vector3d field_uT = axes(world_from_body.transpose() * Eigen::Vector3d(20, 2, 45) + iron_uT);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      values.at(axis).push_back(rate_rad_s[static_cast<Eigen::Index>(axis)] / kRadians);
+      values.at(3 + axis).push_back(field_uT[static_cast<Eigen::Index>(axis)]);
+    }
+    world_from_body *= Eigen::AngleAxisd(rate_rad_s.norm() * kStep_s, rate_rad_s.normalized()).matrix();
+  }
+  AuditedLog log;
+  const std::array names{"rate_x", "rate_y", "rate_z", "field_x", "field_y", "field_z"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    log.channels.push_back(channel(i < 3 ? "imu" : "compass", names.at(i), values.at(i), kStep_s));
+  return log;
+}
+
+TEST(Audit, AxesOfTheFieldThatTheRatesContradict) {
+  const auto axes_of = [](const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& axes) {
+    return *find(compass_findings(turning(axes)), "compass.axes");
+  };
+  EXPECT_EQ(axes_of([](const auto& field) { return field; }).certainty, Certainty::nothing);
+  EXPECT_EQ(axes_of([](const auto& field) -> Eigen::Vector3d { return 1.2 * field; }).certainty,
+            Certainty::nothing);
+  const Finding swapped = axes_of([](const auto& f) { return Eigen::Vector3d(f.y(), f.x(), f.z()); });
+  EXPECT_EQ(swapped.certainty, Certainty::likely);
+  EXPECT_NE(swapped.sentence.find("With axes y, x, z"), std::string::npos) << swapped.sentence;
+  const Finding upwards = axes_of([](const auto& f) { return Eigen::Vector3d(f.x(), -f.y(), -f.z()); });
+  EXPECT_NE(upwards.sentence.find("With axes -x, y, z, or all of these reversed"), std::string::npos)
+      << upwards.sentence;
+  AuditedLog still = turning([](const auto& field) { return field; });
+  for (RecordedChannel& one : still.channels) one.series.values.assign(3000, 0.01);
+  EXPECT_EQ(find(compass_findings(still), "compass.axes")->certainty, Certainty::cannot_say);
 }
 
 /// A field on all headings of a level vehicle, with what the magnetometer's calibrator says of it.
