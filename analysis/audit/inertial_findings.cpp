@@ -16,6 +16,7 @@ using calib::Calibrator;
 
 constexpr double kLeastBias_deg_s = 0.02, kAlone_s = 60;  ///< smallest bias; time of its cost
 constexpr double kLeastScale = 0.02, kTurn_deg = 90;
+constexpr std::size_t kThirds = 3;                  ///< parts of a rest
 constexpr double kSome_m_s2 = 30, kMuch_m_s2 = 60;  ///< vibration at which ArduPilot warns, and at which it fails
 
 /// An interval beyond the limits, which held-out readings confirm.
@@ -78,29 +79,49 @@ void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibr
   findings.push_back(std::move(of_scale));
 }
 
-/// Means of a channel over parts of the times at rest: thirds, or sixths of a single one.
-std::vector<double> means_at_rest(const AuditedLog& log, const Series& series) {
-  constexpr std::size_t kThirds = 3;
-  std::vector<double> means;
+/// Means over parts of an interval, of equal length.
+std::vector<double> means_within(const Series& series, const Interval& interval, std::size_t parts) {
+  const auto place = [&](double time_s) {
+    return std::lower_bound(series.time_s.begin(), series.time_s.end(), time_s) - series.time_s.begin();
+  };
+  const auto first = place(interval.from_s), last = place(interval.to_s);
+  return block_means({series.time_s.begin() + first, series.time_s.begin() + last},
+                     {series.values.begin() + first, series.values.begin() + last}, 1, parts);
+}
+
+/// Rate at which the vehicle itself turned about an axis while it was at rest, of either sign: from the first
+/// third of each rest to the last, by gravity about x and y, by the field about z. 0 where the log does not tell.
+double own_turn_deg_s(const AuditedLog& log, std::string_view axis) {
+  const auto sines = log.all(axis == "rate_x" ? "force_y" : axis == "rate_y" ? "force_x" : "field_y");
+  const auto cosines = log.all(axis == "rate_x" || axis == "rate_y" ? "force_z" : "field_x");
+  double turn_rad = 0, time_s = 0;
   for (const Interval& interval : log.rest) {
-    const auto place = [&](double time_s) {
-      return std::lower_bound(series.time_s.begin(), series.time_s.end(), time_s) - series.time_s.begin();
-    };
-    const auto first = place(interval.from_s), last = place(interval.to_s);
-    const auto parts = block_means({series.time_s.begin() + first, series.time_s.begin() + last},
-                                   {series.values.begin() + first, series.values.begin() + last}, 1,
-                                   log.rest.size() > 1 ? kThirds : 2 * kThirds);
-    means.insert(means.end(), parts.begin(), parts.end());
+    if (sines.empty() || cosines.empty()) return 0;
+    const auto y = means_within(sines.front()->series, interval, kThirds);
+    const auto x = means_within(cosines.front()->series, interval, kThirds);
+    if (y.size() < kThirds || x.size() < kThirds) continue;
+    turn_rad += base::wrapped(std::atan2(y.back(), x.back()) - std::atan2(y.front(), x.front()));
+    time_s += interval.length_s() * (kThirds - 1) / kThirds;
   }
-  return means;
+  return time_s > 0 ? std::abs(turn_rad) / time_s * kDegreesPerRadian : 0;
 }
 
 void append_at_rest(std::vector<Finding>& findings, const AuditedLog& log) {
   for (const char* axis : {"rate_x", "rate_y", "rate_z", "yaw_rate_b"}) {
     for (const RecordedChannel* channel : log.all(axis)) {
       Finding& finding = findings.emplace_back(Finding{"gyro.rest", "Bias of the gyro at rest", channel->name()});
-      if (const auto bias = mean_bounded(means_at_rest(log, channel->series))) {
-        finding.sentence = fmt::format("At rest it shows {:.4f} deg/s.", bias->value);
+      std::vector<double> means;
+      for (const Interval& interval : log.rest) {
+        const auto parts = means_within(channel->series, interval, log.rest.size() > 1 ? kThirds : 2 * kThirds);
+        means.insert(means.end(), parts.begin(), parts.end());
+      }
+      if (auto bias = mean_bounded(means)) {
+        const double own_deg_s = own_turn_deg_s(log, axis);
+        bias->low -= own_deg_s;
+        bias->high += own_deg_s;
+        finding.sentence =
+            fmt::format("At rest it shows {:.4f} deg/s, of which {:.4f} may be the vehicle's own turn.",
+                        bias->value, own_deg_s);
         judge_bias(finding, *bias, true,
                    axis == std::string_view("rate_z") || axis == std::string_view("yaw_rate_b"), log);
       } else {
