@@ -200,7 +200,7 @@ std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& po
       Eigen::Vector3d product = Eigen::Vector3d::Zero(), iron_uT = product;
       double squares = 0;
       // after - iron = back * (before - iron): by the even turns, judged on the odd ones.
-      for (const std::size_t first : {0, 1}) {
+      for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) {
         for (std::size_t i = first; i < turns.size(); i += 2) {
           const Eigen::Matrix3d by_iron = Eigen::Matrix3d::Identity() - turns[i].back;
           const Eigen::Vector3d change_uT = axes * turns[i].after - turns[i].back * axes * turns[i].before;

@@ -284,6 +284,24 @@ TEST(Audit, ABiasThatShowsAtRestIsSaidOnce) {
   EXPECT_FALSE(find(apart, "gyro.bias")->value);
 }
 
+TEST(Audit, TheVehiclesOwnTurnIsNoBias) {
+  AuditedLog log;
+  log.rest = {{0, 40}, {120, 200}};
+  std::vector<double> ahead, down;
+  for (int i = 0; i < 4000; ++i) {
+    const double pitch_rad = 0.05 * kRadians * 0.05 * i;
+    ahead.push_back(9.81 * std::sin(pitch_rad));
+    down.push_back(-9.81 * std::cos(pitch_rad));
+  }
+  log.channels.push_back(channel("imu", "rate_y", normal(4000, 0.05, 0.005), 0.05));
+  EXPECT_EQ(find(inertial_findings(log), "gyro.rest")->certainty, Certainty::found);
+  log.channels.push_back(channel("imu", "force_x", ahead, 0.05));
+  log.channels.push_back(channel("imu", "force_z", down, 0.05));
+  const auto findings = inertial_findings(log);
+  EXPECT_EQ(find(findings, "gyro.rest")->certainty, Certainty::cannot_say);
+  EXPECT_LT(*find(findings, "gyro.rest")->low, 0.001);
+}
+
 TEST(Audit, OneLongRestTellsTheBias) {
   AuditedLog log;
   log.channels.push_back(channel("imu", "rate_z", normal(4000, 0.3, 0.05), 0.05));
