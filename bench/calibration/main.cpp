@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   }
   app.add_option("table", wanted, "which tables; all without:" + list);
   app.add_option("--runs", options.runs, "Monte Carlo runs a row")->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.seed, "first seed of the table of steps");
   app.footer("Example: bench_calibration gyro --runs 200");
   CLI11_PARSE(app, argc, argv);
   bool found = wanted.empty();

@@ -307,7 +307,7 @@ void print_steps(const TableOptions& options) {
   std::array<Counts, kSizes_uT.size()> by_size;
   std::array<Counts, kNoises_uT.size()> by_noise;
   Counts all;
-  std::uint64_t seed = 4001;
+  std::uint64_t seed = options.seed;
   for (std::size_t m = 0; m < kMotions.size(); ++m) {
     Counts sum;
     for (std::size_t s = 0; s < kSizes_uT.size(); ++s) {

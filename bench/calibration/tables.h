@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -8,7 +9,8 @@
 namespace navcal::bench {
 
 struct TableOptions {
-  int runs = 2000;  ///< Monte Carlo runs a row
+  int runs = 2000;            ///< Monte Carlo runs a row
+  std::uint64_t seed = 4001;  ///< the first, of the table of steps
 };
 
 struct Table {
