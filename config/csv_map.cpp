@@ -57,7 +57,7 @@ class ColumnReader {
     column_.line = node_.line;
     take_keys();
     table_.finish();
-    if (!has_meaning_) return complain("meaning is missing");
+    if (!has_meaning_) return table_.find("meaning") == nullptr ? complain("meaning is missing") : std::nullopt;
     const auto quantity = column_.meaning.quantity;
     ColumnUnit unit;
     if (quantity == protocols::described::Meaning::sensor) {

@@ -51,7 +51,7 @@ HeldOutWords held_out_words(const calib::CalibratorReport& report, const IronErr
   const auto& judgement = report.judgement;
   const double before = judgement.held_out_before, after = judgement.held_out_after;
   const auto spread = [](double from, double to, const char* by) {
-    return HeldOutWords{to<from, to> from,
+    return HeldOutWords{to < from, from < to,
                         fmt::format("The size of the field spreads by {:.2f} % as measured, and by {:.2f} % {}.",
                                     100 * from, 100 * to, by)};
   };
@@ -61,7 +61,7 @@ HeldOutWords held_out_words(const calib::CalibratorReport& report, const IronErr
   if (judgement.held_out_quantity == calib::HeldOutQuantity::field)
     return spread(before, after, "calibrated, both on held-out readings");
   if (judgement.held_out_quantity != calib::HeldOutQuantity::heading) return {};
-  return {after<before, after> before,
+  return {after < before, before < after,
           fmt::format("On held-out readings the heading is {:.2f} deg off the gyro's as measured and {:.2f} deg "
                       "calibrated.",
                       before * kDegreesPerRadian, after * kDegreesPerRadian)};

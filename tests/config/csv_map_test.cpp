@@ -61,6 +61,7 @@ TEST(CsvMap, ProblemsNameLineAndKey) {
       << problems;
   EXPECT_NE(problems.find("column.b: meaning is missing"), std::string::npos) << problems;
   EXPECT_NE(problems.find("map.toml:11: column.c.meaning: one of heading, pitch"), std::string::npos) << problems;
+  EXPECT_EQ(problems.find("column.c: meaning"), std::string::npos) << "a wrong one is not missing: " << problems;
   EXPECT_NE(map_problems("[time]\ncolumn = \"t\"\n").find("a map has a [column.NAME] or more"), std::string::npos);
 }
 
