@@ -57,7 +57,7 @@ class ColumnReader {
     column_.line = node_.line;
     take_keys();
     table_.finish();
-    if (!has_meaning_) return table_.find("meaning") == nullptr ? complain("meaning is missing") : std::nullopt;
+    if (!has_meaning_) return table_.has("meaning") ? std::nullopt : complain("meaning is missing");
     const auto quantity = column_.meaning.quantity;
     ColumnUnit unit;
     if (quantity == protocols::described::Meaning::sensor) {
@@ -124,7 +124,7 @@ class ColumnReader {
     return column_;
   }
 
-  /// Of the table as a whole.
+  /// Notes a problem of the table as a whole.
   std::nullopt_t complain(std::string message) {
     problems_.push_back({node_.line, node_.name, std::move(message)});
     return std::nullopt;

@@ -102,7 +102,7 @@ std::string power_part() {
          text_of(power_options(), heading, explained<PowerSettings>);
 }
 
-/// What the wiring of the vehicle decides, and what belongs to the single device.
+/// Whether an option belongs to the wiring of the vehicle or to the single device.
 bool is_of_vehicle(const OptionInfo& option, const Value&) {
   return !option.table.empty() || option.key == "protocol" || option.key == "udev_name" || option.key == "baud" ||
          option.key == "latency_ms" || option.key == "rate_Hz";

@@ -28,7 +28,7 @@ std::vector<std::string> PortMatch::remarks(const std::string& file) const {
 void PortMatch::give(const Entry& entry, pipeline::Pipeline& pipeline, pipeline::Sink& sink,
                      std::optional<std::int64_t> arrival_ns) const {
   if (const auto* raw = std::get_if<RawRead>(&entry)) {
-    const auto port = used_.at(raw->port);
+    const auto port = (*this)[raw->port];
     if (raw->direction == Direction::received && port)
       pipeline.bytes(*port, arrival_ns.value_or(raw->time_ns), raw->bytes, sink);
   } else if (const auto* change = std::get_if<MappingChange>(&entry)) {

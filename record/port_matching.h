@@ -22,9 +22,7 @@ class PortMatch {
   [[nodiscard]] std::optional<std::uint16_t> operator[](std::size_t recorded_port) const {
     return used_.at(recorded_port);
   }
-  /// Names of the recorded ports that the configuration lacks.
-  [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
-  /// "FILE: port NAME is not in the configuration: left out", for each of them.
+  /// "FILE: port NAME is not in the configuration: left out", for each recorded port that the configuration lacks.
   [[nodiscard]] std::vector<std::string> remarks(const std::string& file) const;
 
   /// Gives what a port of the configuration has received, and changes of UTC, to a pipeline of this configuration.

@@ -29,8 +29,8 @@ bool Finding::is_beyond(double least, double most) {
   if (*low > most || *high < least) return true;
   if (*low >= least && *high <= most) return false;
   certainty = Certainty::cannot_say;
-  sentence += fmt::format(" The interval is too wide to tell whether it is beyond {:.3g} {}", most, unit);
-  sentence.erase(sentence.find_last_not_of(' ') + 1) += '.';
+  sentence += fmt::format(" The interval is too wide to tell whether it is beyond {:.3g}{}{}.", most,
+                          unit.empty() ? "" : " ", unit);
   return false;
 }
 
@@ -88,7 +88,7 @@ namespace {
 
 /// Leaves out the consequences of what is wrong with rates, forces or axes: they have one cause.
 void leave_out_consequences(std::vector<Finding>& findings) {
-  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also = "delay.") {
+  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also) {
     const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
       return finding.certainty <= Certainty::likely && is_cause(finding);
     });

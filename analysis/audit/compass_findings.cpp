@@ -256,8 +256,7 @@ Finding axes_finding(const AuditedLog& log, const std::string& port) {
   finding.certainty = Certainty::likely;
   finding.sentence += fmt::format(
       " With axes {}, or all of these reversed, within {:.2f} uT: axes are exchanged or reversed, of the field or "
-      "of "
-      "the rates.",
+      "of the rates.",
       axes->best, axes->best_uT);
   finding.todo = "Set the mounting of the compass (ArduPilot: COMPASS_ORIENT), then calibrate it.";
   return finding;

@@ -66,6 +66,58 @@ Eigen::Vector3d vector_at(const AuditedLog& log, const std::string& port, const 
   return {axis("_x"), axis("_y"), axis("_z")};
 }
 
+/// A field before and after a turn by the rates.
+struct FieldTurn {
+  Eigen::Vector3d before, after;
+  Eigen::Matrix3d back;  ///< after = back * before, of the Earth's field
+};
+
+/// Turns of 0.2 rad within 10 s.
+std::vector<FieldTurn> field_turns(const AuditedLog& log, const std::string& port) {
+  constexpr double kTurn_rad = 0.2, kLongest_s = 10;
+  std::vector<FieldTurn> turns;
+  const auto rates = log.all("rate_x");
+  double begin_s = -INFINITY, last_s = -INFINITY;
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (const double time_s : rates.empty() ? std::vector<double>() : rates.front()->series.time_s) {
+    const Eigen::Vector3d angle_rad = vector_at(log, rates.front()->port, "rate", time_s) *
+                                      (base::kRadiansPerDegree * (time_s - std::exchange(last_s, time_s)));
+    if (angle_rad.allFinite()) turned *= Eigen::AngleAxisd(angle_rad.norm(), angle_rad.normalized()).matrix();
+    const bool is_turn = Eigen::AngleAxisd(turned).angle() > kTurn_rad && time_s - begin_s < kLongest_s;
+    if (!is_turn && time_s - begin_s < kLongest_s) continue;
+    const Eigen::Vector3d after = vector_at(log, port, "field", time_s);
+    if (is_turn && (before + after).allFinite()) turns.push_back({before, after, turned.transpose()});
+    before = after;
+    begin_s = time_s;
+    turned.setIdentity();
+  }
+  return turns;
+}
+
+/// Root mean square of what after - iron = back * (before - iron) leaves of the odd turns, with these axes; the
+/// hard iron is that of the even ones.
+double unexplained_uT(const std::vector<FieldTurn>& turns, const Eigen::Matrix3d& axes) {
+  constexpr double kRidge = 1e-6;
+  const auto change_uT = [&](const FieldTurn& turn) -> Eigen::Vector3d {
+    return axes * turn.after - turn.back * axes * turn.before;
+  };
+  const auto by_iron = [](const FieldTurn& turn) -> Eigen::Matrix3d {
+    return Eigen::Matrix3d::Identity() - turn.back;
+  };
+  Eigen::Matrix3d square = kRidge * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d product = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < turns.size(); i += 2) {
+    square += by_iron(turns[i]).transpose() * by_iron(turns[i]);
+    product += by_iron(turns[i]).transpose() * change_uT(turns[i]);
+  }
+  const Eigen::Vector3d iron_uT = square.inverse() * product;
+  double squares = 0;
+  for (std::size_t i = 1; i < turns.size(); i += 2)
+    squares += (change_uT(turns[i]) - by_iron(turns[i]) * iron_uT).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(turns.size() / 2));
+}
+
 }  // namespace
 
 IronErrors iron_errors(const AuditedLog& log, const FieldCorrection& correction) {
@@ -161,56 +213,22 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
 }
 
 std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& port) {
-  constexpr double kTurn_rad = 0.2, kLongest_s = 10, kRidge = 1e-6;
   constexpr std::size_t kFewest = 15;
-  struct Turn {
-    Eigen::Vector3d before, after;
-    Eigen::Matrix3d back;  ///< after = back * before, of the Earth's field
-  };
-  std::vector<Turn> turns;
-  const auto rates = log.all("rate_x");
-  double begin_s = -INFINITY, last_s = -INFINITY;
-  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();
-  for (const double time_s : rates.empty() ? std::vector<double>() : rates.front()->series.time_s) {
-    const Eigen::Vector3d angle_rad = vector_at(log, rates.front()->port, "rate", time_s) *
-                                      (base::kRadiansPerDegree * (time_s - std::exchange(last_s, time_s)));
-    if (angle_rad.allFinite()) turned *= Eigen::AngleAxisd(angle_rad.norm(), angle_rad.normalized()).matrix();
-    const bool is_turn = Eigen::AngleAxisd(turned).angle() > kTurn_rad && time_s - begin_s < kLongest_s;
-    if (!is_turn && time_s - begin_s < kLongest_s) continue;
-    const Eigen::Vector3d after = vector_at(log, port, "field", time_s);
-    if (is_turn && (before + after).allFinite()) turns.push_back({before, after, turned.transpose()});
-    before = after;
-    begin_s = time_s;
-    turned.setIdentity();
-  }
+  const std::vector<FieldTurn> turns = field_turns(log, port);
   if (turns.size() < kFewest) return std::nullopt;
   FieldAxes found{0, INFINITY, INFINITY, {}};
-  for (const Turn& one : turns)
+  for (const FieldTurn& one : turns)
     found.changed_uT += (one.after - one.before).norm() / static_cast<double>(turns.size());
   std::array<Eigen::Index, 3> order{0, 1, 2};
   do {
     for (Eigen::Index reversed = -1; reversed < 3; ++reversed) {
-      Eigen::Matrix3d axes = Eigen::Matrix3d::Zero(), square = kRidge * Eigen::Matrix3d::Identity();
+      Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
       std::string names;
       for (Eigen::Index i = 0; const Eigen::Index from : order) {
         axes(i, from) = i == reversed ? -1 : 1;
         names += fmt::format("{}{}{}", names.empty() ? "" : ", ", i++ == reversed ? "-" : "", "xyz"[from]);
       }
-      Eigen::Vector3d product = Eigen::Vector3d::Zero(), iron_uT = product;
-      double squares = 0;
-      // after - iron = back * (before - iron): by the even turns, judged on the odd ones.
-      for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) {
-        for (std::size_t i = first; i < turns.size(); i += 2) {
-          const Eigen::Matrix3d by_iron = Eigen::Matrix3d::Identity() - turns[i].back;
-          const Eigen::Vector3d change_uT = axes * turns[i].after - turns[i].back * axes * turns[i].before;
-          square += by_iron.transpose() * by_iron;
-          product += by_iron.transpose() * change_uT;
-          squares += static_cast<double>(first) * (change_uT - by_iron * iron_uT).squaredNorm();
-        }
-        if (first == 0) iron_uT = square.inverse() * product;
-      }
-      const double left_uT = std::sqrt(squares / static_cast<double>(turns.size() / 2));
+      const double left_uT = unexplained_uT(turns, axes);
       if (found.best.empty()) found.sent_uT = left_uT;
       if (left_uT < found.best_uT) found = {found.changed_uT, found.sent_uT, left_uT, names};
     }

@@ -35,8 +35,9 @@ struct HeadingErrors {
 /// nullopt where the log has no accepted calibration, or the field stepped.
 [[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
 
-/// What the rates leave of the changes of a field while the vehicle turns, root mean square: as sent, and with the
-/// axes that agree best. Every other turn is judged. All three axes reversed is no change: hard iron is free.
+/// Root mean square of the changes of a field that the rates do not explain while the vehicle turns: as sent, and
+/// with the axes that agree best. Every other turn is judged. All three axes reversed is no change: hard iron is
+/// free.
 struct FieldAxes {
   double changed_uT = 0, sent_uT = 0, best_uT = 0;  ///< the first: mean size of the changes
   std::string best;                                 ///< "-x, z, y"

@@ -6,7 +6,7 @@
 namespace navcal::record {
 
 std::vector<TopicColumn> topic_columns(const Topic& topic) {
-  // What SensorPlaces adds to a sample.
+  // SensorPlaces adds these to a sample.
   static const std::array kSensorPlace{sample_field("lat"), sample_field("lon")};
   constexpr std::array<std::string_view, 3> kAxes{"_x", "_y", "_z"};
   constexpr std::array<std::string_view, 3> kFins{"_1", "_2", "_3"};

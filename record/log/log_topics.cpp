@@ -25,7 +25,7 @@ constexpr Field quantity(std::string_view name, std::string_view units, std::str
   return {name, number, "", units, standard_name, long_name};
 }
 
-// What several topics have.
+// Members of several topics.
 constexpr Field kValidity{"time", number, "s", "", "time", "time of validity"};
 constexpr Field kValidityStd{"time_std", number, "s", "s", "", "standard error of the time of validity"};
 constexpr Field kArrival{"arrival", number, "s", "", "", "arrival of the last byte"};
@@ -69,7 +69,7 @@ constexpr Field field_of_samples(std::string_view key) {
   return found;
 }
 
-/// Where a member has no description of its own, that of the same key of another kind holds.
+/// A member with its description, or else with that of the same key of another kind.
 template <class Owner, class T>
 constexpr Field described(const instruments::kind::Field<Owner, T>& field) {
   return field.description.empty() ? field_of_samples(field.key) : field_of(field);

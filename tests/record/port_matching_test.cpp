@@ -17,12 +17,13 @@ TEST(PortMatch, PortsAreThoseOfTheSameNameAndOthersAreMissing) {
   const PortMatch match(recorded, used);
   EXPECT_EQ(match[0], std::nullopt);
   EXPECT_EQ(match[1], 1);
-  EXPECT_EQ(match.missing(), std::vector<std::string>{"compass"});
+  EXPECT_EQ(match.remarks("a.cap"),
+            std::vector<std::string>{"a.cap: port compass is not in the configuration: left out"});
   EXPECT_THROW((void)match[2], std::out_of_range);
   const PortMatch same(recorded, recorded);
   EXPECT_EQ(same[0], 0);
   EXPECT_EQ(same[1], 1);
-  EXPECT_TRUE(same.missing().empty());
+  EXPECT_TRUE(same.remarks("a.cap").empty());
 }
 
 }  // namespace

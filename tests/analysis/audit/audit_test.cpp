@@ -275,7 +275,7 @@ TEST(Audit, ABiasThatShowsAtRestIsSaidOnce) {
   const auto same = findings_with(0.31);
   EXPECT_EQ(find(same, "gyro.rest")->certainty, Certainty::found);
   EXPECT_EQ(find(same, "gyro.bias"), nullptr);
-  // With iron at the compass the turns gave -0.69 +- 0.13 deg/s as found, beside the true -0.30 at rest.
+  // The case: iron at the compass. The turns gave -0.69 +- 0.13 deg/s as found, beside the true -0.30 at rest.
   const auto apart = findings_with(0.69);
   EXPECT_EQ(find(apart, "gyro.rest")->certainty, Certainty::likely);
   EXPECT_NE(find(apart, "gyro.rest")->sentence.find("contradicts it: 0.651 to 0.729 deg/s"), std::string::npos)
