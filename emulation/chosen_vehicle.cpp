@@ -80,7 +80,7 @@ LayoutOnMission layout_on_mission(const config::Layout& layout, const std::files
   try {
     auto helm = std::make_unique<sim::LayoutMissionHelm>(layout, config::load_mission(mission));
     std::string remark = helm->remark();
-    return {std::make_unique<sim::LayoutMotion>(layout, std::move(helm), options), std::move(remark)};
+    return {std::make_unique<sim::SimulatedMotion>(layout, std::move(helm), options), std::move(remark)};
   } catch (const sim::UnfitLayout& error) {
     throw base::Failure(base::Exit::bad_input, fmt::format("{}: {}", file.string(), error.what()));
   }

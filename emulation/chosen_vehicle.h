@@ -10,7 +10,7 @@
 #include "base/failure.h"
 #include "config/layout.h"
 #include "config/vehicle.h"
-#include "sim/layout/layout_motion.h"
+#include "sim/vehicle/simulated_motion.h"
 
 namespace navcal::emulation {
 
@@ -25,7 +25,7 @@ using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
 [[nodiscard]] std::optional<config::Layout> layout_in(const std::filesystem::path& file);
 
 struct LayoutOnMission {
-  std::unique_ptr<sim::LayoutMotion> motion;
+  std::unique_ptr<sim::SimulatedMotion> motion;
   std::string remark;  ///< what is less than the mission asks for; empty: nothing
 };
 

@@ -11,10 +11,10 @@
 #include "base/failure.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
-#include "sim/layout/layout_helm.h"
 #include "sim/recording.h"
 #include "sim/truth.h"
 #include "sim/vehicle/body.h"
+#include "sim/vehicle/helm.h"
 
 namespace navcal::emulation {
 namespace {

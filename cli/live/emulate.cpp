@@ -30,9 +30,9 @@
 #include "ports/no_throw.h"
 #include "protocols/device_types.h"
 #include "sim/instruments/emulators.h"
-#include "sim/layout/layout_helm.h"
 #include "sim/path.h"
 #include "sim/vehicle/body.h"
+#include "sim/vehicle/helm.h"
 
 namespace navcal::cli {
 namespace {

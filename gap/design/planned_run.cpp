@@ -32,12 +32,11 @@ class NotingHelm final : public sim::Helm {
       : helm_(vehicle, mission), steps_(mission.steps.size()), began_s_(began_s) {}
 
   [[nodiscard]] sim::Body start() const override { return helm_.start(); }
-  [[nodiscard]] sim::Actuators actuators_at_start() const override { return helm_.actuators_at_start(); }
-  [[nodiscard]] sim::Actuators next(double time_s, double step_s, const sim::Body& body) override {
-    const sim::Actuators actuators = helm_.next(time_s, step_s, body);
+  [[nodiscard]] sim::ActuatorValues positions_at_start() const override { return helm_.positions_at_start(); }
+  void next(double time_s, double step_s, const sim::Body& body, sim::Actuators& actuators) override {
+    helm_.next(time_s, step_s, body, actuators);
     const std::size_t begun = helm_.finished() ? steps_ : std::min(steps_, helm_.step() + 1);
     while (began_s_.size() < begun) began_s_.push_back(time_s);
-    return actuators;
   }
   [[nodiscard]] bool finished() const override { return helm_.finished(); }
 

@@ -11,12 +11,14 @@
 #include "autopilot/autopilot.h"
 #include "base/angles.h"
 #include "base/durations.h"
+#include "base/vectors.h"
 #include "config/vehicle.h"
 #include "gap/actuators/actuator_track.h"
 #include "gap/actuators/commanded_motor.h"
 #include "gap/data/innovations.h"
 #include "gap/thresholds.h"
 #include "sim/effects/effect_table.h"
+#include "sim/layout/layout_of.h"
 #include "sim/motion_in_field.h"
 #include "sim/noise.h"
 #include "sim/recording.h"
@@ -50,11 +52,11 @@ class TrajectoryTracker final : public sim::Helm {
     body.velocity[0] = course_.surge_m_s.front();
     return body;
   }
-  [[nodiscard]] sim::Actuators actuators_at_start() const override {
-    const auto& fins = servos_rad_.front();
-    return {{fins[0], fins[1], fins[2]}, rows_.front().shaft_rps, rows_.front().shaft_rps};
+  [[nodiscard]] sim::ActuatorValues positions_at_start() const override {
+    return sim::Controls{base::vector_of(servos_rad_.front()), rows_.front().shaft_rps}.values();
   }
-  [[nodiscard]] sim::Actuators next(double time_s, double step_s, const sim::Body& body) override {
+  [[nodiscard]] Positions positions() const override { return Positions::written; }
+  void next(double time_s, double step_s, const sim::Body& body, sim::Actuators& actuators) override {
     const Wanted wanted = wanted_at(time_s);
     const double turned = std::remainder(wanted.heading_rad - body.euler_rad[2], 2 * std::numbers::pi);
     const double rudder =
@@ -75,7 +77,7 @@ class TrajectoryTracker final : public sim::Helm {
     for (Eigen::Index i = 0; i < 3; ++i) {
       fins_rad[i] = bounded(fins_rad[i] + servos_rad[static_cast<std::size_t>(i)], fins_.limit_rad);
     }
-    return {fins_rad, shaft_rps, shaft_rps};
+    actuators.commands = actuators.positions = sim::Controls{fins_rad, shaft_rps}.values();
   }
   [[nodiscard]] bool finished() const override { return finished_; }
 

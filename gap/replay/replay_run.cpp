@@ -12,8 +12,8 @@
 #include "calib/correction.h"
 #include "gap/replay/estimator_gains.h"
 #include "sim/rotation.h"
+#include "sim/vehicle/simulated_motion.h"
 #include "sim/vehicle/steady_advance.h"
-#include "sim/vehicle/stepped_motion.h"
 
 namespace navcal::gap {
 namespace {

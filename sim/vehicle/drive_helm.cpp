@@ -8,7 +8,11 @@
 namespace navcal::sim {
 namespace {
 
-Actuators actuators_of(const PathRow& row) { return {base::vector_of(row.fins_rad), row.rpm / 60, row.rpm / 60}; }
+ActuatorValues positions_in(const PathRow& row) {
+  return {{row.rpm}, {row.fins_rad[0], row.fins_rad[1], row.fins_rad[2]}, {}, {}};
+}
+
+double part_way(double from, double to, double part) { return from + part * (to - from); }
 
 }  // namespace
 
@@ -21,9 +25,9 @@ Body DriveHelm::start() const {
   return body;
 }
 
-Actuators DriveHelm::actuators_at_start() const { return actuators_of(rows_.front()); }
+ActuatorValues DriveHelm::positions_at_start() const { return positions_in(rows_.front()); }
 
-Actuators DriveHelm::next(double time_s, double step_s, const Body& /*body*/) {
+void DriveHelm::next(double time_s, double step_s, const Body& /*body*/, Actuators& actuators) {
   const double wanted_s = rows_.front().t_s + time_s + step_s;
   while (row_ + 2 < rows_.size() && rows_[row_ + 1].t_s <= wanted_s) ++row_;
   const PathRow& a = rows_[row_];
@@ -31,9 +35,10 @@ Actuators DriveHelm::next(double time_s, double step_s, const Body& /*body*/) {
   const double part = std::clamp((wanted_s - a.t_s) / (b.t_s - a.t_s), 0.0, 1.0);
   // Within a millionth of a step: times of a file are decimals.
   finished_ = finished_ || wanted_s > rows_.back().t_s - 1e-6 * step_s;
-  const Actuators from = actuators_of(a), to = actuators_of(b);
-  const double shaft_rps = from.shaft_rps + part * (to.shaft_rps - from.shaft_rps);
-  return {from.fins_rad + part * (to.fins_rad - from.fins_rad), shaft_rps, shaft_rps};
+  actuators.positions.thrusters[0] = part_way(a.rpm, b.rpm, part);
+  for (std::size_t i = 0; i < 3; ++i)
+    actuators.positions.surfaces_rad[i] = part_way(a.fins_rad[i], b.fins_rad[i], part);
+  actuators.commands = actuators.positions;
 }
 
 }  // namespace navcal::sim

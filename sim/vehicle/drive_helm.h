@@ -16,10 +16,10 @@ class DriveHelm final : public Helm {
   explicit DriveHelm(std::vector<PathRow> rows);
 
   [[nodiscard]] Body start() const override;
-  [[nodiscard]] Actuators actuators_at_start() const override;
-  [[nodiscard]] Actuators next(double time_s, double step_s, const Body& body) override;
-  /// True because the reference paths were made so.
-  [[nodiscard]] bool holds_over_steps() const override { return true; }
+  [[nodiscard]] ActuatorValues positions_at_start() const override;
+  void next(double time_s, double step_s, const Body& body, Actuators& actuators) override;
+  /// The reference paths were made so.
+  [[nodiscard]] Positions positions() const override { return Positions::held; }
   [[nodiscard]] bool finished() const override { return finished_; }
 
  private:

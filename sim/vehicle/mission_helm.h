@@ -7,6 +7,7 @@
 #include "autopilot/vehicle_state.h"
 #include "config/mission.h"
 #include "config/vehicle.h"
+#include "sim/layout/layout_of.h"
 #include "sim/vehicle/helm.h"
 
 namespace navcal::sim {
@@ -16,25 +17,25 @@ namespace navcal::sim {
 /// The true state: an autopilot of the simulator steers by it.
 [[nodiscard]] autopilot::VehicleState vehicle_state(const Body& body);
 
-/// Takes a vehicle through the steps of a mission by its autopilot, which steers by the true state. Servos and
-/// shaft follow their orders with first-order lags: delta' = (order - delta)/T within the servos' limits, n' =
-/// (order - n)/T, exactly over a step. At the end the mission begins again from where the vehicle is, or what was
-/// wanted last is wanted on.
+/// Takes a vehicle of one propeller and three fins through the steps of a mission by its autopilot, which steers
+/// by the true state. At the end the mission begins again from where the vehicle is, or what was wanted last is
+/// wanted on.
 class MissionHelm final : public Helm {
  public:
   MissionHelm(const config::VehicleSettings& vehicle, config::Mission mission);
 
   [[nodiscard]] Body start() const override { return body_at(orders_.mission().start); }
-  [[nodiscard]] Actuators actuators_at_start() const override;
-  [[nodiscard]] Actuators next(double time_s, double step_s, const Body& body) override;
+  [[nodiscard]] ActuatorValues positions_at_start() const override {
+    return Controls{Eigen::Vector3d::Zero(), orders_.mission().start.shaft_rps}.values();
+  }
+  void next(double time_s, double step_s, const Body& body, Actuators& actuators) override;
   [[nodiscard]] bool finished() const override { return orders_.finished(); }
   /// The step under way, or the one that comes next.
   [[nodiscard]] std::size_t step() const { return orders_.step(); }
 
  private:
-  config::VehicleSettings vehicle_;
+  double period_s_;
   autopilot::MissionOrders orders_;
-  Actuators actuators_;
   double until_orders_s_ = 0;
 };
 

@@ -2,14 +2,19 @@
 #include "sim/vehicle/ordered_helm.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "sim/layout/layout_of.h"
+#include "sim/layout/pulses.h"
 
 namespace navcal::sim {
 
-void OrderedHelm::order(double time_s, const Eigen::Vector3d& fins_rad, double shaft_rps) {
-  const double limit_rps = vehicle_.autopilot.shaft_limit_rps;
-  waiting_.push_back({time_s, fins_rad, std::clamp(shaft_rps, -limit_rps, limit_rps)});
+OrderedHelm::OrderedHelm(const config::VehicleSettings& vehicle)
+    : layout_(layout_of(vehicle)), is_card_(true), numbers_(4) {
+  layout_.thrusters[0].low = -layout_.thrusters[0].high;
 }
+
+OrderedHelm::OrderedHelm(const config::Layout& layout)
+    : layout_(layout), is_card_(false), numbers_(pulses_of(layout, ActuatorValues::neutral(layout))) {}
 
 Body OrderedHelm::start() const {
   Body body;
@@ -17,21 +22,25 @@ Body OrderedHelm::start() const {
   return body;
 }
 
-Actuators OrderedHelm::next(double time_s, double step_s, const Body& /*body*/) {
-  actuators_.fins_ordered_rad.reset();
+void OrderedHelm::next(double time_s, double step_s, const Body& /*body*/, Actuators& actuators) {
   for (; !waiting_.empty() && waiting_.front().time_s <= time_s + step_s / 2; waiting_.pop_front()) {
-    fins_ordered_rad_ = waiting_.front().fins_rad;
-    actuators_.fins_ordered_rad = fins_ordered_rad_;
-    actuators_.shaft_commanded_rps = waiting_.front().shaft_rps;
+    const auto& wanted = waiting_.front().numbers;
+    for (std::size_t i = 0; i < std::min(numbers_.size(), wanted.size()); ++i)
+      numbers_[i] = wanted[i].value_or(numbers_[i]);
+    actuators.is_new_order = true;
   }
-  const double fin_limit = vehicle_.fins.limit_rad;
-  actuators_.fins_rad += (1 - std::exp(-step_s / vehicle_.fins.lag_s)) * (fins_ordered_rad_ - actuators_.fins_rad);
-  actuators_.fins_rad = actuators_.fins_rad.cwiseMax(-fin_limit).cwiseMin(fin_limit);
-  const double change_rps =
-      (1 - std::exp(-step_s / vehicle_.propeller.lag_s)) * (actuators_.shaft_commanded_rps - actuators_.shaft_rps);
-  const double greatest_rps = kGreatestAcceleration_rps_s * step_s;
-  actuators_.shaft_rps += std::clamp(change_rps, -greatest_rps, greatest_rps);
-  return actuators_;
+  if (!is_card_) {
+    actuators.pulses_us = numbers_;
+    return;
+  }
+  const config::LayoutThruster& propeller = layout_.thrusters[0];
+  actuators.commands = {
+      {std::clamp(numbers_[0], propeller.low, propeller.high)}, {numbers_[1], numbers_[2], numbers_[3]}, {}, {}};
+  const double before_rpm = actuators.positions.thrusters[0];
+  actuators.positions = follow(layout_, actuators.positions, actuators.commands, step_s);
+  double& rpm = actuators.positions.thrusters[0];
+  const double most_rpm = 60 * kGreatestAcceleration_rps_s * step_s;
+  rpm = std::clamp(rpm, before_rpm - most_rpm, before_rpm + most_rpm);
 }
 
 }  // namespace navcal::sim

@@ -12,6 +12,7 @@
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
 #include "sim/effects/document.h"
+#include "sim/layout/layout_of.h"
 #include "sim/noise.h"
 #include "sim/recording.h"
 #include "sim/vehicle/mission_helm.h"
@@ -27,45 +28,42 @@ constexpr std::int64_t kBegin_ns = 1'767'225'600'000'000'000;
 class ShapedHelm final : public sim::Helm {
  public:
   ShapedHelm(const config::VehicleSettings& vehicle, std::unique_ptr<sim::Helm> helm, std::uint64_t seed)
-      : vehicle_(vehicle), helm_(std::move(helm)), dice_(seed), actuators_(helm_->actuators_at_start()) {}
+      : layout_(sim::layout_of(vehicle)), helm_(std::move(helm)), dice_(seed),
+        told_(helm_->positions_at_start().surfaces_rad), wanted_(told_) {}
 
   [[nodiscard]] sim::Body start() const override { return helm_->start(); }
-  [[nodiscard]] sim::Actuators actuators_at_start() const override { return actuators_; }
+  [[nodiscard]] sim::ActuatorValues positions_at_start() const override { return helm_->positions_at_start(); }
+  [[nodiscard]] Positions positions() const override { return Positions::written; }
   [[nodiscard]] bool finished() const override { return helm_->finished(); }
-  [[nodiscard]] sim::Actuators next(double time_s, double step_s, const sim::Body& body) override {
-    const sim::Actuators wanted = helm_->next(time_s, step_s, body);
-    if (wanted.fins_ordered_rad) wanted_rad_ = *wanted.fins_ordered_rad;
-    actuators_.shaft_rps = wanted.shaft_rps;
-    actuators_.shaft_commanded_rps = wanted.shaft_commanded_rps;
-    actuators_.fins_ordered_rad.reset();
+  void next(double time_s, double step_s, const sim::Body& body, sim::Actuators& actuators) override {
+    helm_->next(time_s, step_s, body, actuators);
+    if (actuators.is_new_order) wanted_ = actuators.commands.surfaces_rad;
+    actuators.is_new_order = false;
     // The part of the step before the order acts belongs to the order before.
     double late_s = 0;
-    const Eigen::Vector3d before_rad = told_rad_;
+    const sim::ActuatorNumbers before = told_;
     if (until_order_s_ < step_s / 2) {
       until_order_s_ += 0.05;
-      if (told_rad_ != wanted_rad_) {
-        const Eigen::Vector3d most_rad = Eigen::Vector3d::Constant(10 * base::kRadiansPerDegree);
-        told_rad_ = wanted_rad_.cwiseMax(told_rad_ - most_rad).cwiseMin(told_rad_ + most_rad);
-        actuators_.fins_ordered_rad = told_rad_;
+      if (!(told_ == wanted_)) {
+        constexpr double kMost_rad = 10 * base::kRadiansPerDegree;
+        for (std::size_t i = 0; i < told_.size(); ++i)
+          told_[i] = std::clamp(wanted_[i], told_[i] - kMost_rad, told_[i] + kMost_rad);
+        actuators.is_new_order = true;
         late_s = dice_.uniform(0, 0.8 * step_s);
       }
     }
     until_order_s_ -= step_s;
-    follow(before_rad, late_s);
-    follow(told_rad_, step_s - late_s);
-    return actuators_;
+    for (const auto& [fins_rad, seconds] : {std::pair(before, late_s), std::pair(told_, step_s - late_s)}) {
+      actuators.commands.surfaces_rad = fins_rad;
+      actuators.positions = sim::follow(layout_, actuators.positions, actuators.commands, seconds);
+    }
   }
 
  private:
-  void follow(const Eigen::Vector3d& command_rad, double seconds) {
-    actuators_.fins_rad += -std::expm1(-seconds / vehicle_.fins.lag_s) * (command_rad - actuators_.fins_rad);
-  }
-
-  config::VehicleSettings vehicle_;
+  config::Layout layout_;
   std::unique_ptr<sim::Helm> helm_;
   sim::Noise dice_;
-  sim::Actuators actuators_;
-  Eigen::Vector3d told_rad_ = Eigen::Vector3d::Zero(), wanted_rad_ = Eigen::Vector3d::Zero();
+  sim::ActuatorNumbers told_, wanted_;
   double until_order_s_ = 0;
 };
 

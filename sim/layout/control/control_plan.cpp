@@ -12,7 +12,7 @@
 #include "autopilot/controllability.h"
 #include "base/angles.h"
 #include "sim/layout/control/mission_needs.h"
-#include "sim/layout/layout_helm.h"
+#include "sim/vehicle/helm.h"
 
 namespace navcal::sim {
 namespace {

@@ -221,20 +221,18 @@ void LayoutAutopilot::allocate(const autopilot::Demand& demand, const Body& body
 
 LayoutMissionHelm::LayoutMissionHelm(const config::Layout& layout, config::Mission mission)
     : vehicle_(layout), allocator_(layout), steps_(std::move(mission)),
-      plan_(plan_control(vehicle_, allocator_, steps_.mission())), autopilot_(vehicle_, allocator_, plan_),
-      pulses_us_(pulses_of(layout, ActuatorValues::neutral(layout))) {}
+      plan_(plan_control(vehicle_, allocator_, steps_.mission())), autopilot_(vehicle_, allocator_, plan_) {}
 
-const std::vector<double>& LayoutMissionHelm::next(double /*time_s*/, double step_s, const Body& body) {
+void LayoutMissionHelm::next(double /*time_s*/, double step_s, const Body& body, Actuators& actuators) {
   steps_.add_way(body.velocity.head<3>().norm() * step_s);
   // Half a step: the sum of steps is no round number.
   if (until_orders_s_ < 0.5 * step_s) {
     expect_progress();
     const autopilot::Demand& demand = steps_.next(vehicle_state(body), kPeriod_s, autopilot_.last());
-    pulses_us_ = pulses_of(vehicle_.layout(), autopilot_.commands(demand, body, kPeriod_s));
+    actuators.pulses_us = pulses_of(vehicle_.layout(), autopilot_.commands(demand, body, kPeriod_s));
     until_orders_s_ += kPeriod_s;
   }
   until_orders_s_ -= step_s;
-  return pulses_us_;
 }
 
 std::string LayoutMissionHelm::remark() const {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "autopilot/allocation.h"
 #include "autopilot/autopilot.h"
@@ -13,7 +12,6 @@
 #include "config/layout.h"
 #include "config/mission.h"
 #include "sim/layout/control/control_plan.h"
-#include "sim/layout/layout_helm.h"
 #include "sim/layout/layout_vehicle.h"
 #include "sim/vehicle/mission_helm.h"
 
@@ -130,7 +128,7 @@ class LayoutAutopilot {
 };
 
 /// Takes a layout through the steps of a mission by its autopilot, ten times a second.
-class LayoutMissionHelm final : public LayoutHelm {
+class LayoutMissionHelm final : public Helm {
  public:
   static constexpr double kPeriod_s = 0.1;
 
@@ -141,7 +139,10 @@ class LayoutMissionHelm final : public LayoutHelm {
   LayoutMissionHelm& operator=(const LayoutMissionHelm&) = delete;
 
   [[nodiscard]] Body start() const override { return body_at(steps_.mission().start); }
-  [[nodiscard]] const std::vector<double>& next(double time_s, double step_s, const Body& body) override;
+  [[nodiscard]] ActuatorValues positions_at_start() const override {
+    return ActuatorValues::neutral(vehicle_.layout());
+  }
+  void next(double time_s, double step_s, const Body& body, Actuators& actuators) override;
   [[nodiscard]] bool finished() const override { return steps_.finished(); }
   [[nodiscard]] const ControlPlan& plan() const { return plan_; }
   /// What is less than the mission asks for: "speeds are held at 0.48 m/s, ..."; empty: nothing.
@@ -156,7 +157,6 @@ class LayoutMissionHelm final : public LayoutHelm {
   autopilot::MissionSteps steps_;
   ControlPlan plan_;
   LayoutAutopilot autopilot_;
-  std::vector<double> pulses_us_;
   double until_orders_s_ = 0;
 };
 

@@ -9,10 +9,10 @@
 #include "config/mission_file.h"
 #include "sim/effects/effect_set.h"
 #include "sim/layout/control/layout_mission_helm.h"
-#include "sim/layout/control/layout_ordered_helm.h"
-#include "sim/layout/layout_motion.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/pulses.h"
+#include "sim/vehicle/ordered_helm.h"
+#include "sim/vehicle/simulated_motion.h"
 
 namespace navcal::sim::testing {
 namespace {
@@ -28,13 +28,13 @@ config::Mission mission_of(const std::string& steps, const std::string& start = 
       "mission.at_end = \"hold\"\nstart.depth_m = 0.5\n" + start + "step = [" + steps + "]\n", "mission");
 }
 
-std::unique_ptr<LayoutMotion> steered(const config::Layout& layout, const config::Mission& mission,
-                                      VehicleInfluencer* influencer = nullptr) {
-  return std::make_unique<LayoutMotion>(layout, std::make_unique<LayoutMissionHelm>(layout, mission),
-                                        MotionOptions{.influencer = influencer});
+std::unique_ptr<SimulatedMotion> steered(const config::Layout& layout, const config::Mission& mission,
+                                         VehicleInfluencer* influencer = nullptr) {
+  return std::make_unique<SimulatedMotion>(layout, std::make_unique<LayoutMissionHelm>(layout, mission),
+                                           MotionOptions{.influencer = influencer});
 }
 
-State layout_at(const LayoutMotion& motion, double time_s) { return motion.at(std::llround(time_s * 1e9)); }
+State layout_at(const SimulatedMotion& motion, double time_s) { return motion.at(std::llround(time_s * 1e9)); }
 
 std::string why_unfit(const config::Layout& layout, const config::Mission& mission) {
   try {
@@ -167,7 +167,7 @@ TEST(LayoutMission, OutputsAreToldTenTimesASecondAndAreTheCommands) {
 TEST(LayoutMission, TheHullFloats) {
   config::Layout layout = shipped_layout("bluerov2-heavy");
   layout.body.buoyancy_N = layout.weight_N() + 5;
-  const LayoutMotion motion(layout, std::make_unique<LayoutOrderedHelm>(layout), {});
+  const SimulatedMotion motion(layout, std::make_unique<OrderedHelm>(layout), {});
   const double depth_m = layout_at(motion, 60).position_m[2];
   // 5 N of 137 N are above the water: the origin lies deeper than half the height by the share that is in it.
   EXPECT_NEAR(depth_m, (0.5 - 5 / layout.body.buoyancy_N) * layout.body.size_m[2], 0.005);
@@ -175,9 +175,9 @@ TEST(LayoutMission, TheHullFloats) {
 
 TEST(LayoutMission, OrdersMoveTheActuatorsThatTheyName) {
   const config::Layout layout = layout_of({});
-  auto helm = std::make_unique<LayoutOrderedHelm>(layout);
+  auto helm = std::make_unique<OrderedHelm>(layout);
   helm->order(1, {1700, std::nullopt, 1600});
-  const LayoutMotion motion(layout, std::move(helm), {});
+  const SimulatedMotion motion(layout, std::move(helm), {});
   (void)layout_at(motion, 10);
   EXPECT_NEAR(motion.positions().thrusters[0], 0.5 * layout.thrusters[0].high, 1e-3);
   EXPECT_EQ(motion.positions().surfaces_rad[0], 0);

@@ -18,7 +18,7 @@ struct Miss {
 /// The greatest distance on the way; the heading at the end.
 Miss miss_of(const std::filesystem::path& file) {
   const auto rows = load_path(file);
-  const SimulatedMotion motion({}, std::make_unique<DriveHelm>(rows), {});
+  const SimulatedMotion motion(config::VehicleSettings{}, std::make_unique<DriveHelm>(rows), {});
   Miss miss;
   EXPECT_NEAR(motion.duration_s(), rows.back().t_s - rows.front().t_s, 1e-6);
   for (const PathRow& row : rows) {
@@ -64,7 +64,7 @@ TEST(Drive, AfterTheLastRowFinsAndShaftStayAsTheyAre) {
   rows[0].rpm = 600;
   rows[1].rpm = 780;
   rows[1].fins_rad = {-0.1, 0.05, 0.05};
-  const SimulatedMotion motion({}, std::make_unique<DriveHelm>(rows), {});
+  const SimulatedMotion motion(config::VehicleSettings{}, std::make_unique<DriveHelm>(rows), {});
   EXPECT_NEAR(motion.duration_s(), 1, 1e-9);
   EXPECT_NEAR(motion.at(at_s(0.5)).rpm, 690, 1e-9);
   EXPECT_NEAR(motion.at(at_s(60)).rpm, 780, 1e-9);

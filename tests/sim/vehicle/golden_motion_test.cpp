@@ -33,7 +33,8 @@ TEST_P(Golden, MotionIsWhatItWas) {
   add_effects(toml, effects, problems);
   ASSERT_TRUE(problems.empty());
   const SimulatedMotion motion(
-      {}, std::make_unique<MissionHelm>(config::VehicleSettings{}, config::load_mission(std::string(mission))),
+      config::VehicleSettings{},
+      std::make_unique<MissionHelm>(config::VehicleSettings{}, config::load_mission(std::string(mission))),
       {.influencer = &effects});
   const State now = motion.at(150'000'000'000);
   std::array<double, 15> found{};

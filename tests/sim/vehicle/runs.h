@@ -33,7 +33,7 @@ inline std::int64_t at_s(double t_s) { return std::llround(t_s * 1e9); }
 
 /// The reference vehicle on a mission written as TOML.
 inline SimulatedMotion on_mission(std::string_view toml, const MotionOptions& options = {}) {
-  return {{},
+  return {config::VehicleSettings{},
           std::make_unique<MissionHelm>(config::VehicleSettings{}, config::parse_mission(toml, "test.toml")),
           options};
 }

@@ -83,15 +83,16 @@ TEST(SimulatedMotion, WhatItSaysOfMotionFitsTogether) {
 struct RampHelm final : Helm {
   static Eigen::Vector3d fins_rad(double time_s) { return autopilot::mixed_fins(0.2 * time_s, 0); }
   [[nodiscard]] Body start() const override { return under_way(1.1); }
-  [[nodiscard]] Actuators actuators_at_start() const override { return {fins_rad(0), 13, 13}; }
-  [[nodiscard]] Actuators next(double time_s, double step_s, const Body&) override {
-    return {fins_rad(time_s + step_s), 13, 13};
+  [[nodiscard]] ActuatorValues positions_at_start() const override { return Controls{fins_rad(0), 13}.values(); }
+  [[nodiscard]] Positions positions() const override { return Positions::written; }
+  void next(double time_s, double step_s, const Body&, Actuators& actuators) override {
+    actuators.positions = Controls{fins_rad(time_s + step_s), 13}.values();
   }
   [[nodiscard]] bool finished() const override { return false; }
 };
 
 TEST(SimulatedMotion, FinsThatMoveAreFeltWhenTheyMoveAndNotHalfAStepEarlier) {
-  const SimulatedMotion motion({}, std::make_unique<RampHelm>(), {});
+  const SimulatedMotion motion(config::VehicleSettings{}, std::make_unique<RampHelm>(), {});
   const LayoutVehicle vehicle(layout_of({}));
   constexpr double kFine_s = 1e-4, kUntil_s = 1;
   Body body = under_way(1.1);

@@ -42,7 +42,7 @@ std::vector<sim::PathRow> random_drive(double duration_s, std::uint64_t seed) {
 sim::State swum_by_sim(const std::vector<sim::PathRow>& rows, sim::EffectSet& effects) {
   sim::MotionOptions options;
   options.influencer = &effects;
-  const sim::SimulatedMotion motion({}, std::make_unique<sim::DriveHelm>(rows), options);
+  const sim::SimulatedMotion motion(config::VehicleSettings{}, std::make_unique<sim::DriveHelm>(rows), options);
   return motion.at(std::llround(rows.back().t_s * 1e9));
 }
 
