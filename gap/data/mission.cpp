@@ -107,6 +107,15 @@ bool Mission::is_silent(Quantity quantity) const {
                      [&](const Silence& silence) { return silence.quantity == quantity; });
 }
 
+void Mission::take_order_times() {
+  order_times_s.clear();
+  ordered_fins_rad.clear();
+  for (const Order& order : orders) {
+    order_times_s.push_back(order.time_s);
+    ordered_fins_rad.push_back(order.fins_rad);
+  }
+}
+
 std::string Mission::shortcoming() const {
   if (motor.empty() && orders.empty()) {
     std::string reason = lacks.motor.empty() ? "no motor card in the recording, and no commands"
@@ -341,10 +350,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
     mission.orders = std::move(orders);
     mission.commanded_s = std::move(commanded_s);
   }
-  for (const Order& order : mission.orders) {
-    mission.order_times_s.push_back(order.time_s);
-    mission.ordered_fins_rad.push_back(order.fins_rad);
-  }
+  mission.take_order_times();
   find_silences(mission);
   if (mission.distorted > 0) {
     mission.remarks.push_back(fmt::format("{}: {} words with E001: the compass reports magnetic distortion",

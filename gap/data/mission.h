@@ -98,6 +98,8 @@ struct Mission {
   devices::InstrumentModel instruments;
 
   [[nodiscard]] std::vector<double> fix_times_s() const;
+  /// Sets order_times_s and ordered_fins_rad to those of `orders`.
+  void take_order_times();
   /// Whether a quantity is silent at a time, and whether it is silent at all.
   [[nodiscard]] bool is_silent(Quantity quantity, double time_s) const;
   [[nodiscard]] bool is_silent(Quantity quantity) const;

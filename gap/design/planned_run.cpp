@@ -12,8 +12,8 @@
 #include "base/durations.h"
 #include "gap/actuators/commanded_motor.h"
 #include "gap/data/innovations.h"
+#include "gap/data/simulated_mission.h"
 #include "sim/motion_in_field.h"
-#include "sim/recording.h"
 #include "sim/vehicle/mission_helm.h"
 #include "sim/vehicle/simulated_motion.h"
 
@@ -138,37 +138,8 @@ Mission planned_readings(const config::VehicleSettings& vehicle, const config::M
                                   with.field.north_east_down_uT);
   sim::Recording::Options options{kPlanBegin_ns, false, 1, nullptr, false, false};
   options.instruments = with.instruments;
-  sim::Recording instruments(options, motion);
-  config::Settings settings;
-  settings.ports = sim::recording_ports(with.instruments);
-  pipeline::Pipeline pipeline(samples_only(settings));
-  MissionGatherer gatherer;
-  std::vector<Order> orders;
-  std::vector<sim::LineRead> reads;
-  std::vector<double> commanded_s;
-  const std::int64_t end_ns = kPlanBegin_ns + std::llround(duration_s * 1e9);
-  for (std::int64_t t_ns = kPlanBegin_ns; t_ns < end_ns;) {
-    t_ns = std::min(t_ns + base::kSecond_ns, end_ns);
-    reads.clear();
-    instruments.advance(t_ns, reads);
-    for (const sim::LineRead& read : reads) {
-      if (!read.sent) {
-        pipeline.bytes(static_cast<std::uint16_t>(read.of), read.time_ns, read.bytes, gatherer);
-      } else if (const auto command = protocols::motor_card::decode_command(read.bytes)) {
-        commanded_s.push_back(static_cast<double>(read.time_ns - kPlanBegin_ns) * 1e-9);
-        orders.push_back(order_of(*command, commanded_s.back()));
-      }
-    }
-  }
-  Mission readings = gatherer.take(kPlanBegin_ns, {});
-  readings.instruments = with.instruments;
+  Mission readings = simulated_mission(options, motion, duration_s);
   readings.field = with.field;
-  for (const Order& order : orders) {
-    readings.order_times_s.push_back(order.time_s);
-    readings.ordered_fins_rad.push_back(order.fins_rad);
-  }
-  readings.orders = std::move(orders);
-  readings.commanded_s = std::move(commanded_s);
   obey_orders(readings, vehicle);
   return readings;
 }

@@ -16,12 +16,12 @@
 #include "gap/actuators/actuator_track.h"
 #include "gap/actuators/commanded_motor.h"
 #include "gap/data/innovations.h"
+#include "gap/data/simulated_mission.h"
 #include "gap/thresholds.h"
 #include "sim/effects/effect_table.h"
 #include "sim/layout/layout_of.h"
 #include "sim/motion_in_field.h"
 #include "sim/noise.h"
-#include "sim/recording.h"
 #include "sim/vehicle/helm.h"
 #include "sim/vehicle/simulated_motion.h"
 
@@ -117,12 +117,6 @@ constexpr std::int64_t kSomeSecond_ns = 1'767'225'600 * base::kSecond_ns;
 /// A receiver's noise is settled after so many fixes.
 constexpr int kPoorFixes = 8;
 
-config::Settings simulated_settings(const devices::InstrumentModel& instruments) {
-  config::Settings settings;
-  settings.ports = sim::recording_ports(instruments);
-  return samples_only(settings);
-}
-
 /// The noise of the first fixes of each surfacing, as the nominal receiver has it.
 void add_surfacings(const Mission& recorded, sim::EffectSet& effects) {
   for (const FixReading& fix : recorded.fixes) {
@@ -174,22 +168,7 @@ Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mism
       field.north_east_down_uT);
   sim::Recording::Options options{begin_ns, true, seed, &effects, false, true};
   options.instruments = recorded.mission().instruments;
-  sim::Recording instruments(options, motion);
-
-  pipeline::Pipeline pipeline(simulated_settings(options.instruments));
-  MissionGatherer gatherer;
-  std::vector<sim::LineRead> reads;
-  const std::int64_t end_ns = begin_ns + std::llround(recorded.mission().duration_s * 1e9);
-  for (std::int64_t t_ns = begin_ns; t_ns < end_ns;) {
-    t_ns = std::min(t_ns + base::kSecond_ns, end_ns);
-    reads.clear();
-    instruments.advance(t_ns, reads);
-    for (const sim::LineRead& read : reads) {
-      if (!read.sent) pipeline.bytes(static_cast<std::uint16_t>(read.of), read.time_ns, read.bytes, gatherer);
-    }
-  }
-  Mission mission = gatherer.take(begin_ns, {});
-  mission.instruments = options.instruments;
+  Mission mission = simulated_mission(options, motion, recorded.mission().duration_s);
   silence_like(recorded.mission(), mission);
   // A fitted field absorbs some of each vehicle's tolerances, so it is fitted to each null, too.
   mission.field = field.source == EarthField::Source::fitted ? fitted_field(mission.compass) : field;
@@ -202,11 +181,7 @@ Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mism
     }
     mission.motor.clear();
     obey_orders(mission, vehicle);
-    mission.order_times_s.clear();
-    for (const Order& order : mission.orders) {
-      mission.order_times_s.push_back(order.time_s);
-      mission.ordered_fins_rad.push_back(order.fins_rad);
-    }
+    mission.take_order_times();
   }
   return mission;
 }
