@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "autopilot/shaft_speed.h"
 #include "base/angles.h"
 #include "base/reference_instruments.h"
 #include "base/vectors.h"
@@ -13,7 +14,6 @@
 #include "gap/replay/estimator_gains.h"
 #include "sim/rotation.h"
 #include "sim/vehicle/simulated_motion.h"
-#include "sim/vehicle/steady_advance.h"
 
 namespace navcal::gap {
 namespace {
@@ -129,7 +129,7 @@ void ReplayRun::begin(const CardReading& reading) {
   has_heading_ = !in_.mission.is_silent(Quantity::heading, reading.time_s);
   body_.position_m.z() = finite_or_zero(reading.depth_m);
   body_.velocity[0] =
-      sim::steady_advance_m(in_.settings) * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
+      autopilot::surge_for(in_.settings, 1) * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
   gyro_said_rad_s_ = about_axes(reading.gyro_rad_s);
   gyro_error_rad_s_ = gyro_error_at_rest_rad_s_;
   for (std::size_t i = 0; i < 3; ++i) {

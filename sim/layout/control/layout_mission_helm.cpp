@@ -5,12 +5,12 @@
 
 #include <utility>
 
+#include "autopilot/shaft_speed.h"
 #include "base/angles.h"
 #include "base/gravity.h"
 #include "sim/layout/control/mission_needs.h"
 #include "sim/layout/pulses.h"
 #include "sim/layout/vector_of.h"
-#include "sim/vehicle/steady_advance.h"
 
 namespace navcal::sim {
 namespace {
@@ -90,7 +90,7 @@ void GlideControl::command(double depth_demanded_m, const Body& body, double per
 }
 
 double speed_of_shaft(double shaft_rps) {
-  static const double kAdvance_m = steady_advance_m({});
+  static const double kAdvance_m = autopilot::surge_for({}, 1);
   return kAdvance_m * shaft_rps;
 }
 

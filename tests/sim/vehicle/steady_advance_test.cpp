@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/vehicle/steady_advance.h"
-
 #include <gtest/gtest.h>
 
+#include "autopilot/shaft_speed.h"
 #include "base/reference_instruments.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
@@ -11,7 +10,7 @@ namespace navcal::sim {
 namespace {
 
 TEST(SteadyAdvance, TheReferenceVehicleHasThatOfTheConfiguration) {
-  EXPECT_NEAR(steady_advance_m({}), base::reference::kAdvance_m, 5e-5);
+  EXPECT_NEAR(autopilot::surge_for({}, 1), base::reference::kAdvance_m, 5e-5);
 }
 
 TEST(SteadyAdvance, AVehicleSettlesAtIt) {
@@ -24,7 +23,7 @@ TEST(SteadyAdvance, AVehicleSettlesAtIt) {
     Body body;
     body.velocity[0] = 1;
     for (int i = 0; i < 6000; ++i) body = vehicle.midpoint_step(body, held, held, 0.02);
-    EXPECT_NEAR(body.velocity[0] / kShaft_rps, steady_advance_m(settings), 2e-4);
+    EXPECT_NEAR(body.velocity[0] / kShaft_rps, autopilot::surge_for(settings, 1), 2e-4);
   }
 }
 
