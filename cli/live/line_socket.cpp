@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kLongestSocketLine = 1 << 20;
 
 [[noreturn]] void refuse_connection(const std::string& address, std::string_view problem) {
-  throw std::runtime_error(address + ": " + std::string(problem));
+  throw std::runtime_error((address.empty() ? "" : address + ": ") + std::string(problem));
 }
 
 /// A disk that has to be woken takes some seconds.
@@ -33,6 +33,11 @@ constexpr std::chrono::seconds kControlAnswerLimit{30};
 [[noreturn]] void fail_control(const std::string& why) { throw base::Failure(base::Exit::failed, why); }
 
 }  // namespace
+
+int milliseconds_until(LineSocket::Clock::time_point until) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - LineSocket::Clock::now());
+  return static_cast<int>(std::max<std::int64_t>(0, left.count()));
+}
 
 std::string connect_at_once(int socket, const addrinfo& address) {
   return ::connect(socket, address.ai_addr, address.ai_addrlen) == 0 ? "" : std::strerror(errno);
@@ -60,7 +65,7 @@ base::Descriptor connect_tcp(const std::string& host, const std::string& port, c
 LineSocket LineSocket::tcp(const std::string& host, const std::string& port) {
   const std::string address = host + ":" + port;
   try {
-    return {connect_tcp(host, port), address};
+    return LineSocket(connect_tcp(host, port), address);
   } catch (const std::runtime_error& error) {
     refuse_connection(address, error.what());
   }
@@ -76,7 +81,7 @@ LineSocket LineSocket::unix_domain(const std::filesystem::path& path) {
       ::connect(descriptor.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     refuse_connection(path.native(), std::strerror(errno));
   }
-  return {std::move(descriptor), path.native()};
+  return LineSocket(std::move(descriptor), path.native());
 }
 
 void LineSocket::fail(std::string_view problem) const { refuse_connection(address_, problem); }
@@ -97,9 +102,8 @@ std::optional<std::string> LineSocket::next(Clock::time_point until) {
       bytes_.erase(0, end + 1);
       return line;
     }
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
     pollfd readable{descriptor_.get(), POLLIN, 0};
-    if (::poll(&readable, 1, static_cast<int>(std::max<std::int64_t>(0, left))) <= 0) return std::nullopt;
+    if (::poll(&readable, 1, milliseconds_until(until)) <= 0) return std::nullopt;
     std::array<char, 16384> chunk{};
     const ssize_t taken = ::recv(descriptor_.get(), chunk.data(), chunk.size(), 0);
     if (taken < 0 && errno == EINTR) return std::nullopt;

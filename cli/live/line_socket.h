@@ -25,27 +25,31 @@ using ConnectSocket = std::function<std::string(int socket, const addrinfo& addr
                                            const ConnectSocket& connect = connect_at_once, int socket_flags = 0);
 
 /// A connected socket on which both sides speak in lines. Every function throws std::runtime_error when the socket
-/// fails or the other side closes it; the message names the address.
+/// fails or the other side closes it; the message names the address, if there is one.
 class LineSocket {
  public:
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] static LineSocket tcp(const std::string& host, const std::string& port);
   [[nodiscard]] static LineSocket unix_domain(const std::filesystem::path& path);
+  /// `address`: for messages.
+  explicit LineSocket(base::Descriptor descriptor, std::string address = {})
+      : descriptor_(std::move(descriptor)), address_(std::move(address)) {}
 
   void send(std::string_view text);
   /// The next line without its end, or nullopt when none was whole by then, or a signal came.
   [[nodiscard]] std::optional<std::string> next(Clock::time_point until);
 
  private:
-  LineSocket(base::Descriptor descriptor, std::string address)
-      : descriptor_(std::move(descriptor)), address_(std::move(address)) {}
   [[noreturn]] void fail(std::string_view problem) const;
 
   base::Descriptor descriptor_;
   std::string address_;
   std::string bytes_;
 };
+
+/// Timeout for poll(2); 0 when the time has come.
+[[nodiscard]] int milliseconds_until(LineSocket::Clock::time_point until);
 
 /// Requests to navcald's control socket, one after the other.
 class ControlLink {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/descriptor.h"
+#include "cli/live/line_socket.h"
 
 namespace navcal::cli {
 
@@ -29,21 +29,19 @@ class WatchStream {
   /// The next line, without its newline; nullopt when `until` has come or a signal came in. Waits for both bytes
   /// and the daemon's return.
   std::optional<std::string> next(std::chrono::steady_clock::time_point until);
-  [[nodiscard]] bool connected() const { return static_cast<bool>(socket_); }
+  [[nodiscard]] bool connected() const { return socket_.has_value(); }
   /// True when there was a connection at any time.
   [[nodiscard]] bool was_connected() const { return was_connected_; }
   /// Why it is not connected.
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
-  std::optional<std::string> take_line();
   bool connect();
   void disconnect(std::string problem);
 
   std::string host_, port_, request_;
-  base::Descriptor socket_;
+  std::optional<LineSocket> socket_;
   bool was_connected_ = false;
-  std::string bytes_;
   std::string problem_;
   std::chrono::steady_clock::time_point next_attempt_{};
 };
