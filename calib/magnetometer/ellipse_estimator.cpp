@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "calib/magnetometer/ellipse_judgement.h"
 #include "calib/magnetometer/field_cells.h"
@@ -66,17 +65,7 @@ void EllipseEstimator::settle() {
 
 std::optional<MagnetometerEstimate> EllipseEstimator::estimate() const {
   if (!fit_) return std::nullopt;
-  MagnetometerEstimate estimate;
-  estimate.correction = correction_of(fit_->shape);
-  const EllipseShape::Matrix covariance = stated_covariance(*fit_, cells_.cells(), 0);
-  estimate.offset_std_uT.head<2>() = covariance.diagonal().head<2>().cwiseSqrt();
-  estimate.matrix_std.setConstant(std::numeric_limits<double>::infinity());
-  estimate.offset_std_uT.z() = std::numeric_limits<double>::infinity();
-  estimate.residual_uT = fit_->residual_uT;
-  estimate.field_uT = fit_->shape.radius_uT();
-  estimate.heading_std_rad = worst_heading_std_rad(fit_->shape, covariance);
-  estimate.samples = samples_;
-  return estimate;
+  return level_estimate(fit_->shape, stated_covariance(*fit_, cells_.cells(), 0), fit_->residual_uT, samples_);
 }
 
 void EllipseEstimator::archive(Archive& archive) {

@@ -104,17 +104,7 @@ std::optional<EllipseShape> EllipseGyro::shape() const {
 
 std::optional<MagnetometerEstimate> EllipseGyro::estimate() const {
   if (!shape_found_) return std::nullopt;
-  const EllipseShape::Matrix covariance = stated_covariance(0);
-  MagnetometerEstimate estimate;
-  estimate.correction = correction_of(chain_.shape);
-  estimate.offset_std_uT.head<2>() = covariance.diagonal().head<2>().cwiseSqrt();
-  estimate.matrix_std.setConstant(std::numeric_limits<double>::infinity());
-  estimate.offset_std_uT.z() = std::numeric_limits<double>::infinity();
-  estimate.residual_uT = chain_.residual_uT;
-  estimate.field_uT = chain_.shape.radius_uT();
-  estimate.heading_std_rad = worst_heading_std_rad(chain_.shape, covariance);
-  estimate.samples = samples_;
-  return estimate;
+  return level_estimate(chain_.shape, stated_covariance(0), chain_.residual_uT, samples_);
 }
 
 void EllipseGyro::archive(Archive& archive) {

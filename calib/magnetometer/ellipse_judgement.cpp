@@ -53,6 +53,20 @@ EllipseShape::Matrix stated_covariance(const EllipseFit& fit, const EllipseCells
   return covariance;
 }
 
+MagnetometerEstimate level_estimate(const EllipseShape& shape, const EllipseShape::Matrix& covariance,
+                                    double residual_uT, std::uint64_t samples) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  MagnetometerEstimate estimate;
+  estimate.correction = correction_of(shape);
+  estimate.offset_std_uT << covariance.diagonal().head<2>().cwiseSqrt(), kUnknown;
+  estimate.matrix_std.setConstant(kUnknown);
+  estimate.residual_uT = residual_uT;
+  estimate.field_uT = shape.radius_uT();
+  estimate.heading_std_rad = worst_heading_std_rad(shape, covariance);
+  estimate.samples = samples;
+  return estimate;
+}
+
 double curvature_of(const EllipseFit& fit, const EllipseCells& cells) {
   const base::SymmetricEigen eigen = base::symmetric_eigen(fit.covariance);
   constexpr int kLargest = EllipseShape::kParameters - 1;

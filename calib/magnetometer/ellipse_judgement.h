@@ -2,6 +2,7 @@
 #pragma once
 
 #include "calib/magnetometer/ellipse_fit.h"
+#include "calib/magnetometer/magnetometer_estimate.h"
 
 namespace navcal::calib {
 
@@ -10,6 +11,11 @@ namespace navcal::calib {
 /// sector that no number of readings averages away (iron that moves, a field that is not uniform).
 [[nodiscard]] EllipseShape::Matrix stated_covariance(const EllipseFit& fit, const EllipseCells& cells,
                                                      double model_error_uT);
+
+/// The estimate by an ellipse: of the vertical nothing is determined.
+[[nodiscard]] MagnetometerEstimate level_estimate(const EllipseShape& shape,
+                                                  const EllipseShape::Matrix& covariance, double residual_uT,
+                                                  std::uint64_t samples);
 
 /// Growth of the squared distances two standard deviations from the fit in its least certain direction,
 /// relative to the growth of a parabola (four times the variance); the larger of both sides, >= 1. Large: the

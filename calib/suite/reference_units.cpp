@@ -154,35 +154,32 @@ double apply_deviation(std::span<const double> value, const CompassReading& /*re
   return deviation_of(value)(heading_rad);
 }
 
+constexpr CalibratorRow reference_row(std::string_view name, std::string_view title, std::string_view needs_text,
+                                      AppliesTo applies_to, decltype(CalibratorRow::make) make) {
+  return {.name = name,
+          .title = title,
+          .needs = {.compass = true, .reference = true},
+          .needs_text = needs_text,
+          .corrects = Corrects::heading,
+          .automatic = true,
+          .of_compass = true,
+          .value_names = kDeviationNames,
+          .apply = apply_deviation,
+          .applies_to = applies_to,
+          .gives_offset = true,
+          .make = make};
+}
+
 }  // namespace
 
 namespace calibrator_rows {
 extern const CalibratorRow reference_compass, reference_field;
-constinit const CalibratorRow reference_compass{
-    .name = "reference_compass",
-    .title = "Compass by reference",
-    .needs = {.compass = true, .reference = true},
-    .needs_text = "a compass and a heading reference (roles.heading_reference)",
-    .corrects = Corrects::heading,
-    .automatic = true,
-    .of_compass = true,
-    .value_names = kDeviationNames,
-    .apply = apply_deviation,
-    .applies_to = AppliesTo::measured,
-    .gives_offset = true,
-    .make = make_unit<ReferenceUnit<false>>};
-constinit const CalibratorRow reference_field{
-    .name = "reference_field",
-    .title = "Field by reference",
-    .needs = {.compass = true, .reference = true},
-    .needs_text = "a compass with its field and a heading reference (roles.heading_reference)",
-    .corrects = Corrects::heading,
-    .automatic = true,
-    .of_compass = true,
-    .value_names = kDeviationNames,
-    .apply = apply_deviation,
-    .applies_to = AppliesTo::field,
-    .gives_offset = true,
-    .make = make_unit<ReferenceUnit<true>>};
+constinit const CalibratorRow reference_compass = reference_row(
+    "reference_compass", "Compass by reference", "a compass and a heading reference (roles.heading_reference)",
+    AppliesTo::measured, make_unit<ReferenceUnit<false>>);
+constinit const CalibratorRow reference_field =
+    reference_row("reference_field", "Field by reference",
+                  "a compass with its field and a heading reference (roles.heading_reference)", AppliesTo::field,
+                  make_unit<ReferenceUnit<true>>);
 }  // namespace calibrator_rows
 }  // namespace navcal::calib
