@@ -48,10 +48,7 @@ void expect_instruments(const std::vector<std::string>& names) {
 }
 
 std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
-  if (options.source.vehicle.empty()) return std::nullopt;
-  const emulation::ChosenVehicle vehicle = emulation::load_chosen_vehicle(options.source.vehicle);
-  const auto* layout = std::get_if<config::Layout>(&vehicle);
-  return layout == nullptr ? std::nullopt : std::optional(*layout);
+  return emulation::layout_in(options.source.vehicle);
 }
 
 gap::Request gap_request_of(const GapRequestOptions& options) {

@@ -2,18 +2,16 @@
 #include "emulation/emulate_misbehaviour.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "protocols/text_fields.h"
 
 namespace navcal::emulation {
 namespace {
 
 std::optional<double> seconds(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) || value < 0)
-    return std::nullopt;
-  return value;
+  const auto value = protocols::signed_number(text);
+  return value && *value >= 0 ? value : std::nullopt;
 }
 
 }  // namespace

@@ -258,23 +258,23 @@ class Pool {
         workers_.emplace_back(plan_, **next++, options_);
       }
       if (workers_.empty()) return;
-      collect(kLook);
+      collect(ended_);
     }
   }
 
  private:
   static constexpr std::chrono::milliseconds kLook{200};
 
-  /// Waits for a process to end, not longer than this, and hands on those that did.
-  void collect(std::chrono::milliseconds limit) {
+  /// Waits for a process to end, not longer than kLook, and hands on those that did to `ended`.
+  void collect(const TaskEnded& ended) {
     std::vector<pollfd> waiting;
     for (const Worker& worker : workers_) waiting.push_back({worker.end(), POLLIN, 0});
-    if (::poll(waiting.data(), waiting.size(), static_cast<int>(limit.count())) <= 0) return;
+    if (::poll(waiting.data(), waiting.size(), static_cast<int>(kLook.count())) <= 0) return;
     for (std::size_t i = waiting.size(); i-- > 0;) {
       if (waiting[i].revents == 0) continue;
       const Worker worker = std::move(workers_[i]);
       workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-      ended_(worker.task(), worker.attempt(results_));
+      ended(worker.task(), worker.attempt(results_));
     }
   }
   /// Asks all processes to end, and kills those that do not within two seconds.
@@ -287,14 +287,7 @@ class Pool {
       for (const Worker& worker : workers_) {
         if (is_late) worker.signal(SIGKILL);
       }
-      std::vector<pollfd> waiting;
-      for (const Worker& worker : workers_) waiting.push_back({worker.end(), POLLIN, 0});
-      ::poll(waiting.data(), waiting.size(), static_cast<int>(kLook.count()));
-      for (std::size_t i = waiting.size(); i-- > 0;) {
-        if (waiting[i].revents == 0) continue;
-        (void)workers_[i].attempt(results_);
-        workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-      }
+      collect([](const Task&, const Attempt&) {});
     }
   }
 
