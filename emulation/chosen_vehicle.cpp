@@ -74,8 +74,13 @@ void expect_simulable(const config::Layout& layout, const std::filesystem::path&
   }
 }
 
-LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
+MotionOnMission motion_on_mission(const ChosenVehicle& vehicle, const std::filesystem::path& file,
                                   const std::string& mission, const sim::MotionOptions& options) {
+  if (const auto* three_fins = std::get_if<config::VehicleSettings>(&vehicle)) {
+    auto helm = std::make_unique<sim::MissionHelm>(*three_fins, config::load_mission(mission));
+    return {std::make_unique<sim::SimulatedMotion>(*three_fins, std::move(helm), options), {}};
+  }
+  const auto& layout = std::get<config::Layout>(vehicle);
   expect_simulable(layout, file, options.influencer);
   try {
     auto helm = std::make_unique<sim::LayoutMissionHelm>(layout, config::load_mission(mission));

@@ -24,14 +24,14 @@ using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
 /// The layout of a file; nullopt where the file is none, or there is no file. Throws config::Error.
 [[nodiscard]] std::optional<config::Layout> layout_in(const std::filesystem::path& file);
 
-struct LayoutOnMission {
+struct MotionOnMission {
   std::unique_ptr<sim::SimulatedMotion> motion;
   std::string remark;  ///< what is less than the mission asks for; empty: nothing
 };
 
-/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws
-/// config::Error, and Failure where the layout cannot be simulated, or cannot do what the mission needs.
-[[nodiscard]] LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
+/// A vehicle that takes a mission (a name or a file). `file` stands for the vehicle in messages. Throws
+/// config::Error, and Failure where a layout cannot be simulated, or cannot do what the mission needs.
+[[nodiscard]] MotionOnMission motion_on_mission(const ChosenVehicle& vehicle, const std::filesystem::path& file,
                                                 const std::string& mission, const sim::MotionOptions& options);
 
 /// Throws Failure where a layout, or what effects make of it at any time, has no equations of motion, and where it

@@ -21,7 +21,6 @@
 #include "sim/instruments/battery_gauge.h"
 #include "sim/instruments/emulators.h"
 #include "sim/instruments/tcm2.h"
-#include "sim/motion_in_field.h"
 #include "sim/truth.h"
 
 namespace navcal::emulation {
@@ -153,10 +152,13 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   layout_ = layout_in(arguments.vehicle);
   if (!place.remark.empty()) fmt::print(stderr, "navcal: {}\n", place.remark);
   effects_ = effects_of(arguments, layout_, start_ns);
-  EmulatedMotion made = emulate_motion(arguments, start_ns, effects_, [this] { return now_ns(); });
+  EmulatedMotion made = emulate_motion(arguments, {.start_ns = start_ns,
+                                                   .influencer = &effects_,
+                                                   .field_world_uT = place.field_world_uT,
+                                                   .now_ns = [this] { return now_ns(); }});
   obey_card_ = std::move(made.obey_card);
   obey_outputs_ = std::move(made.obey_outputs);
-  motion_ = std::make_unique<sim::MotionInField>(std::move(made.motion), place.field_world_uT);
+  motion_ = std::move(made.motion);
   if (!arguments.truth.empty()) {
     truth_ = std::make_unique<EmulateTruth>(arguments.truth, *motion_, start_ns);
     write_truth();

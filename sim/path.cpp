@@ -34,8 +34,15 @@ bool parse_row(std::string_view line, std::array<double, kColumnCount>& values) 
 }
 
 PathRow row_of(const std::array<double, kColumnCount>& v) {
-  return {v[0],  {v[1], v[2], v[3]},   {v[4], v[5], v[6]}, {v[7], v[8], v[9]}, {v[10], v[11], v[12]},
-          v[13], {v[14], v[15], v[16]}};
+  PathRow row;
+  row.t_s = v[0];
+  row.position_m = {v[1], v[2], v[3]};
+  row.euler_rad = {v[4], v[5], v[6]};
+  row.velocity_body_m_s = {v[7], v[8], v[9]};
+  row.rate_rad_s = {v[10], v[11], v[12]};
+  row.rpm = v[13];
+  row.fins_rad = {v[14], v[15], v[16]};
+  return row;
 }
 
 Vector3 mixed(const Vector3& a, const Vector3& b, double part) {
@@ -57,18 +64,13 @@ bool ends_as_it_began(const PathRow& first, const PathRow& last) {
          near(first.rate_rad_s, last.rate_rad_s, 1e-3);
 }
 
-State state_of(const PathRow& row, const Vector3& velocity_change_m_s2) {
-  State state;
-  state.position_m = row.position_m;
-  state.euler_rad = row.euler_rad;
-  state.velocity_body_m_s = row.velocity_body_m_s;
-  state.rate_rad_s = row.rate_rad_s;
+/// What follows of the columns of a path.
+State completed(State state, const Vector3& velocity_change_m_s2) {
   state.specific_force_m_s2 =
-      specific_force(row.euler_rad, row.velocity_body_m_s, row.rate_rad_s, velocity_change_m_s2);
-  state.rpm_commanded = state.rpm = row.rpm;
-  state.fins_rad = row.fins_rad;
-  state.motor_current_A = current_A(config::PropellerSettings{}, row.rpm / 60);
-  state.water_temperature_C = water_temperature_C(row.position_m[2]);
+      specific_force(state.euler_rad, state.velocity_body_m_s, state.rate_rad_s, velocity_change_m_s2);
+  state.rpm_commanded = state.rpm;
+  state.motor_current_A = current_A(config::PropellerSettings{}, state.rpm / 60);
+  state.water_temperature_C = water_temperature_C(state.position_m[2]);
   return state;
 }
 
@@ -105,8 +107,10 @@ std::vector<PathRow> load_path(const std::filesystem::path& file) {
   return rows;
 }
 
-PathMotion::PathMotion(std::vector<PathRow> rows, std::int64_t start_ns)
-    : rows_(std::move(rows)), start_ns_(start_ns), closed_(ends_as_it_began(rows_.front(), rows_.back())) {}
+PathMotion::PathMotion(std::vector<PathRow> rows, std::int64_t start_ns, const Vector3& field_world_uT)
+    : rows_(std::move(rows)), start_ns_(start_ns), closed_(ends_as_it_began(rows_.front(), rows_.back())) {
+  for (PathRow& row : rows_) row.field_world_uT = field_world_uT;
+}
 
 State PathMotion::at(std::int64_t t_ns) const {
   const double elapsed = std::max(0.0, static_cast<double>(t_ns - start_ns_) * 1e-9);
@@ -121,14 +125,7 @@ State PathMotion::within(double t_s) const {
   const PathRow& a = *(after - 1);
   const auto index = static_cast<std::size_t>(after - rows_.begin());
   const double part = std::clamp((t_s - a.t_s) / (b.t_s - a.t_s), 0.0, 1.0);
-  PathRow row;
-  row.position_m = mixed(a.position_m, b.position_m, part);
-  row.euler_rad = mixed(a.euler_rad, b.euler_rad, part);
-  row.velocity_body_m_s = mixed(a.velocity_body_m_s, b.velocity_body_m_s, part);
-  row.rate_rad_s = mixed(a.rate_rad_s, b.rate_rad_s, part);
-  row.rpm = a.rpm + part * (b.rpm - a.rpm);
-  row.fins_rad = mixed(a.fins_rad, b.fins_rad, part);
-  return state_of(row, mixed(velocity_change(index - 1), velocity_change(index), part));
+  return completed(between(a, b, part), mixed(velocity_change(index - 1), velocity_change(index), part));
 }
 
 /// Central difference; one-sided at the ends.
@@ -159,7 +156,7 @@ State PathMotion::beyond(double after_s) const {
   const double share = std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half;
   const Vector3 mean = R_world_from_body({phi, theta, psi + half}) * row.velocity_body_m_s;
   for (std::size_t i = 0; i < 2; ++i) row.position_m[i] += share * mean[i] * after_s;
-  return state_of(row, {});
+  return completed(row, {});
 }
 
 }  // namespace navcal::sim

@@ -9,15 +9,9 @@
 
 namespace navcal::sim {
 
-/// One row of a path: the columns of paths/*.csv, SI and radians.
-struct PathRow {
+/// One row of a path: the columns of paths/*.csv, SI and radians. Its other members are those of any state.
+struct PathRow : State {
   double t_s = 0;
-  Vector3 position_m{};
-  Vector3 euler_rad{};
-  Vector3 velocity_body_m_s{};
-  Vector3 rate_rad_s{};
-  double rpm = 0;
-  Vector3 fins_rad{};
 };
 
 /// A file that is no path; what() names file and line.
@@ -35,7 +29,8 @@ class BadPath : public std::runtime_error {
 class PathMotion final : public Motion {
  public:
   /// The first row is at start_ns; before it the first row holds. Needs two rows or more.
-  PathMotion(std::vector<PathRow> rows, std::int64_t start_ns);
+  PathMotion(std::vector<PathRow> rows, std::int64_t start_ns,
+             const Vector3& field_world_uT = State{}.field_world_uT);
 
   [[nodiscard]] State at(std::int64_t t_ns) const override;
   [[nodiscard]] bool closed() const { return closed_; }

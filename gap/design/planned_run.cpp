@@ -13,7 +13,6 @@
 #include "gap/actuators/commanded_motor.h"
 #include "gap/data/innovations.h"
 #include "gap/data/simulated_mission.h"
-#include "sim/motion_in_field.h"
 #include "sim/vehicle/mission_helm.h"
 #include "sim/vehicle/simulated_motion.h"
 
@@ -24,27 +23,6 @@ namespace {
 constexpr std::int64_t kPlanBegin_ns = 1'767'225'600 * base::kSecond_ns;
 /// Depth above which a step to the surface keeps the vehicle, m.
 constexpr double kAwash_m = 0.02;
-
-/// Helm of a mission that notes when its steps begin.
-class NotingHelm final : public sim::Helm {
- public:
-  NotingHelm(const config::VehicleSettings& vehicle, const config::Mission& mission, std::vector<double>& began_s)
-      : helm_(vehicle, mission), steps_(mission.steps.size()), began_s_(began_s) {}
-
-  [[nodiscard]] sim::Body start() const override { return helm_.start(); }
-  [[nodiscard]] sim::ActuatorValues positions_at_start() const override { return helm_.positions_at_start(); }
-  void next(double time_s, double step_s, const sim::Body& body, sim::Actuators& actuators) override {
-    helm_.next(time_s, step_s, body, actuators);
-    const std::size_t begun = helm_.finished() ? steps_ : std::min(steps_, helm_.step() + 1);
-    while (began_s_.size() < begun) began_s_.push_back(time_s);
-  }
-  [[nodiscard]] bool finished() const override { return helm_.finished(); }
-
- private:
-  sim::MissionHelm helm_;
-  std::size_t steps_;
-  std::vector<double>& began_s_;
-};
 
 config::Mission once(config::Mission mission) {
   mission.at_end = config::MissionEnd::hold;
@@ -78,16 +56,17 @@ PlannedPath planned_path(const config::VehicleSettings& vehicle, const config::M
                          const sim::EffectSet& effects, double longest_s) {
   PlannedPath path;
   sim::EffectSet own = effects;
-  auto helm = std::make_unique<NotingHelm>(vehicle, once(mission), path.step_began_s);
-  const NotingHelm& noting = *helm;
+  auto helm = std::make_unique<sim::MissionHelm>(vehicle, once(mission));
+  const sim::MissionHelm& under_way = *helm;
   const sim::SimulatedMotion motion(vehicle, std::move(helm), sim::MotionOptions{0, &own, 20});
   for (int i = 0;; ++i) {
     const double time_s = i * kInterval_s;
     const sim::State state = motion.at(std::llround(time_s * 1e9));
-    if (noting.finished() || time_s > longest_s) break;
+    if (under_way.finished() || time_s > longest_s) break;
     append(state, time_s, path);
     path.duration_s = time_s + kInterval_s;
   }
+  path.step_began_s = under_way.step_began_s();
   return path;
 }
 
@@ -133,9 +112,9 @@ std::vector<std::string> violations(const PathExtremes& extremes, const config::
 Mission planned_readings(const config::VehicleSettings& vehicle, const config::Mission& mission,
                          const PlannedInstruments& with, double duration_s) {
   auto helm = std::make_unique<sim::MissionHelm>(vehicle, once(mission));
-  const sim::MotionInField motion(std::make_unique<sim::SimulatedMotion>(
-                                      vehicle, std::move(helm), sim::MotionOptions{kPlanBegin_ns, nullptr, 20}),
-                                  with.field.north_east_down_uT);
+  const sim::SimulatedMotion motion(
+      vehicle, std::move(helm),
+      {.start_ns = kPlanBegin_ns, .history_s = 20, .field_world_uT = with.field.north_east_down_uT});
   sim::Recording::Options options{kPlanBegin_ns, false, 1, nullptr, false, false};
   options.instruments = with.instruments;
   Mission readings = simulated_mission(options, motion, duration_s);

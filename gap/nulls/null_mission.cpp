@@ -20,7 +20,6 @@
 #include "gap/thresholds.h"
 #include "sim/effects/effect_table.h"
 #include "sim/layout/layout_of.h"
-#include "sim/motion_in_field.h"
 #include "sim/noise.h"
 #include "sim/vehicle/helm.h"
 #include "sim/vehicle/simulated_motion.h"
@@ -163,9 +162,9 @@ Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mism
       track.rows(), track.orders().drawn_servos_rad(track.rows().size(), ActuatorTrack::kStep_s, later_s, dice),
       course, vehicle.fins);
   const EarthField& field = recorded.mission().field;
-  const sim::MotionInField motion(
-      std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), sim::MotionOptions{begin_ns, &effects, 20}),
-      field.north_east_down_uT);
+  const sim::SimulatedMotion motion(
+      vehicle, std::move(helm),
+      {.start_ns = begin_ns, .influencer = &effects, .history_s = 20, .field_world_uT = field.north_east_down_uT});
   sim::Recording::Options options{begin_ns, true, seed, &effects, false, true};
   options.instruments = recorded.mission().instruments;
   Mission mission = simulated_mission(options, motion, recorded.mission().duration_s);

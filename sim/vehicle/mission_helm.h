@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <vector>
 
 #include "autopilot/mission_orders.h"
 #include "autopilot/vehicle_state.h"
@@ -30,13 +30,14 @@ class MissionHelm final : public Helm {
   }
   void next(double time_s, double step_s, const Body& body, Actuators& actuators) override;
   [[nodiscard]] bool finished() const override { return orders_.finished(); }
-  /// The step under way, or the one that comes next.
-  [[nodiscard]] std::size_t step() const { return orders_.step(); }
+  /// Times at which the steps began, so far.
+  [[nodiscard]] const std::vector<double>& step_began_s() const { return step_began_s_; }
 
  private:
   double period_s_;
   autopilot::MissionOrders orders_;
   double until_orders_s_ = 0;
+  std::vector<double> step_began_s_;
 };
 
 }  // namespace navcal::sim

@@ -40,7 +40,7 @@ SimulatedMotion::SimulatedMotion(const config::VehicleSettings& vehicle, std::un
 }
 
 State SimulatedMotion::at(std::int64_t t_ns) const {
-  const std::int64_t elapsed_ns = std::max<std::int64_t>(0, t_ns - options_.start_ns);
+  const std::int64_t elapsed_ns = std::max<std::int64_t>(0, by_now(t_ns) - options_.start_ns);
   const std::int64_t step = elapsed_ns / kMotionStep_ns;
   while (steps_ < step + 2) take_step();
   const std::int64_t oldest = steps_ - static_cast<std::int64_t>(states_.size());
@@ -118,6 +118,7 @@ State SimulatedMotion::state_of(const Vector6& acceleration, const Influences& i
                                 const Actuators& actuators) const {
   State state;
   set_motion(state, body_, acceleration);
+  state.field_world_uT = options_.field_world_uT;
   state.current_m_s = influences.current_m_s;
   state.water_temperature_C = water_temperature_C(state.position_m[2]);
   if (!card_) return state;

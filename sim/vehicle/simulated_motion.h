@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -25,6 +27,10 @@ struct MotionOptions {
   double history_s = std::numeric_limits<double>::infinity();
   /// The hull of one propeller and three fins floats; that of a layout always does.
   bool floats = false;
+  Vector3 field_world_uT = State{}.field_world_uT;
+  /// UTC. With it the vehicle obeys orders in real time: it is never taken further ahead than this, since what it
+  /// does next depends on orders that have not come, and states of a time to come are those of now.
+  std::function<std::int64_t()> now_ns{};
 };
 
 /// A vehicle under way: taken ahead in steps of 0.01 s as far as it is asked for, states between steps in a
@@ -64,11 +70,17 @@ class SimulatedMotion final : public Motion {
   [[nodiscard]] State state_of(const Vector6& acceleration, const Influences& influences,
                                const Actuators& actuators) const;
 
+  /// t_ns, but not later than now.
+  [[nodiscard]] std::int64_t by_now(std::int64_t t_ns) const {
+    return options_.now_ns ? std::min(t_ns, options_.now_ns()) : t_ns;
+  }
+
   // Orders to the vehicle are kept until they are taken, for `history_s` at most.
   template <class Told>
   void tell(std::deque<Told>& waiting, Told told) const;
   template <class Told>
   void take(std::deque<Told>& waiting, std::int64_t t_ns, std::vector<Told>& out) const {
+    t_ns = by_now(t_ns);
     (void)at(t_ns);
     for (; !waiting.empty() && waiting.front().time_ns <= t_ns; waiting.pop_front())
       out.push_back(std::move(waiting.front()));

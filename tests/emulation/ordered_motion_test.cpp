@@ -21,7 +21,8 @@ struct OrderedVehicle : ::testing::Test {
   EmulatedMotion ordered(sim::VehicleInfluencer& influencer) {
     EmulateArguments arguments;
     arguments.ordered = true;
-    return emulate_motion(arguments, kBegin_ns, influencer, [this] { return now_ns; });
+    return emulate_motion(arguments,
+                          {.start_ns = kBegin_ns, .influencer = &influencer, .now_ns = [this] { return now_ns; }});
   }
   sim::State after(double seconds) {
     now_ns += static_cast<std::int64_t>(seconds * 1e9);
