@@ -21,7 +21,7 @@
 #include "sim/instruments/battery_gauge.h"
 #include "sim/instruments/emulators.h"
 #include "sim/instruments/tcm2.h"
-#include "sim/truth.h"
+#include "sim/path.h"
 
 namespace navcal::emulation {
 

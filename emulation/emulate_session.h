@@ -26,7 +26,7 @@
 
 namespace navcal::emulation {
 
-/// The true motion of the emulated vehicle, 100 rows a second (sim/truth.h). The file appears when it is finished.
+/// The true motion of the emulated vehicle, 100 rows a second (sim/path.h). The file appears when it is finished.
 class EmulateTruth {
  public:
   /// Time 0 is `start_ns` (UTC). Throws std::system_error.

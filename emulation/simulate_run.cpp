@@ -11,8 +11,8 @@
 #include "base/failure.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
+#include "sim/path.h"
 #include "sim/recording.h"
-#include "sim/truth.h"
 #include "sim/vehicle/body.h"
 #include "sim/vehicle/helm.h"
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -105,6 +106,18 @@ std::vector<PathRow> load_path(const std::filesystem::path& file) {
   }
   if (rows.size() < 2) fail("a path has two rows or more");
   return rows;
+}
+
+void begin_truth(std::string& out) { out.append(kColumns) += '\n'; }
+
+void append_truth(std::string& out, double time_s, const State& state) {
+  auto to = std::back_inserter(out);
+  fmt::format_to(to, "{:.9g}", time_s);
+  for (const auto* vector : {&state.position_m, &state.euler_rad, &state.velocity_body_m_s, &state.rate_rad_s}) {
+    fmt::format_to(to, ",{:.9g},{:.9g},{:.9g}", (*vector)[0], (*vector)[1], (*vector)[2]);
+  }
+  fmt::format_to(to, ",{:.9g},{:.9g},{:.9g},{:.9g}\n", state.rpm, state.fins_rad[0], state.fins_rad[1],
+                 state.fins_rad[2]);
 }
 
 PathMotion::PathMotion(std::vector<PathRow> rows, std::int64_t start_ns, const Vector3& field_world_uT)

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "sim/state.h"
@@ -22,6 +23,11 @@ class BadPath : public std::runtime_error {
 
 /// Reads t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3 with increasing times; yaw may be wrapped or not.
 [[nodiscard]] std::vector<PathRow> load_path(const std::filesystem::path& file);
+
+/// Writes states as such a file, so that the true motion can be driven or carried along again; the fins are those
+/// of the servos' shafts.
+void begin_truth(std::string& out);
+void append_truth(std::string& out, double time_s, const State& state);
 
 /// Runs along a path. One that ends as it began (place, heading, motion) is run again and again; any other goes on
 /// for ever with the turn and the speed of its last row at the depth reached, so that it never jumps to another

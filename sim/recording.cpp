@@ -93,16 +93,15 @@ Recording::Recording(const Options& options, const Motion& motion)
   add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
   if (options.commands == CommandPort::outputs) {
     add(Instrument::motor, std::make_unique<ActuatorOutputs>(motion));
-    ask_receiver(options.begin_ns);
-    return;
+  } else {
+    MotorCard::Options motor;
+    motor.motor = model.motor;
+    motor.baud = static_cast<int>(model.motor.timing.baud);
+    motor.seed = seed();
+    motor.effects = &effects_;
+    motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);
+    add(Instrument::motor, std::make_unique<MotorCard>(motor, motion));
   }
-  MotorCard::Options motor;
-  motor.motor = model.motor;
-  motor.baud = static_cast<int>(model.motor.timing.baud);
-  motor.seed = seed();
-  motor.effects = &effects_;
-  motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);
-  add(Instrument::motor, std::make_unique<MotorCard>(motor, motion));
   ask_receiver(options.begin_ns);
 }
 
