@@ -255,10 +255,9 @@ void add_gap(CLI::App& app) {
       "  navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
   add_gap_next(*command);
   add_gap_watch(*command);
-  add_gap_layouts(*command);
   add_gap_trial(*command);
-  // navcal research lists them.
-  for (const char* const name : {"layouts", "trial"}) command->get_subcommand(name)->group("");
+  // navcal research lists it.
+  command->get_subcommand("trial")->group("");
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;
     if (options->source.missions.empty()) options->saved = options->from;

@@ -11,7 +11,8 @@
 #include "base/interruptible.h"
 #include "base/progress.h"
 #include "cli/live/commands.h"
-#include "record/whole_file.h"
+#include "cli/live/exit_statuses.h"
+#include "cli/live/result_file.h"
 #include "report/validation_report.h"
 #include "report/validation_words.h"
 #include "validation/active_trial.h"
@@ -23,73 +24,85 @@ namespace {
 struct GapTrialCommandOptions {
   bool active = false;
   int missions = 1;
-  int cases = 0, minutes = 10, places = validation::kTrialPlaces, timeout_s = 600;
+  int cases = 0, places = validation::kTrialPlaces, timeout_s = 600;
+  std::optional<double> minutes;
   std::uint64_t seed = 1;
   std::vector<std::string> arms;
   std::vector<int> only;
   std::string json;
   std::filesystem::path report;
   validation::CaseRunOptions asking;
+  std::vector<std::string> layouts;
+  validation::LayoutTrial on_layouts;
 };
 
-/// Opened before the first case is asked: hours later is too late to learn that a file cannot be written.
-class Outputs {
- public:
-  explicit Outputs(const GapTrialCommandOptions& options) : options_(options) {
-    if (!options.json.empty() && options.json != "-") json_.emplace(options.json);
-    if (!options.report.empty()) page_.emplace(options.report);
-    if (!options.asking.keep.empty()) std::filesystem::create_directories(options.asking.keep);
+/// Reads the layouts, and checks the options that depend on whether there are any.
+void complete(GapTrialCommandOptions& options) {
+  const auto expect = [](bool holds, const char* what) {
+    if (!holds) throw base::Failure(base::Exit::usage, what);
+  };
+  expect((options.cases > 0) != !options.only.empty(), "either --cases N or --only CASE is required");
+  if (options.layouts.empty()) {
+    options.minutes = options.minutes.value_or(10);
+    return expect(*options.minutes == 3 || *options.minutes == 10, "--minutes: 3 or 10, without --layout");
   }
-  /// Stream for text; JSON may have standard output for itself.
-  [[nodiscard]] std::FILE* talk() const { return options_.json == "-" ? stderr : stdout; }
+  validation::LayoutTrial& on = options.on_layouts;
+  on.minutes = *(options.minutes = options.minutes.value_or(on.minutes));
+  on.seed = options.seed;
+  expect(!options.active,
+         "--active with --layout: the second reality sails planned missions with the reference vehicle only");
+  expect(!options.asking.bank_missions,
+         "--bank with --layout: the floor of a layout is that of nominal recordings (--nominal)");
+  for (const std::string& file : options.layouts)
+    on.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
+}
 
-  void write(const report::TrialReport& report) {
-    fmt::print(talk(), "{}", report::trial_text(report));
-    if (options_.json == "-") fmt::print("{}", report::trial_json(report));
-    if (json_) write_whole(*json_, report::trial_json(report));
-    if (page_) write_whole(*page_, report::trial_page(report));
-    if (options_.asking.keep.empty()) return;
-    for (const validation::TrialResult& result : report.results) {
-      record::WholeFile truth(options_.asking.keep / fmt::format("{:04}", result.drawn.number) / "truth.json");
-      write_whole(truth, result.seal.truth + '\n');
-    }
-  }
+/// Stream for text; JSON may have standard output for itself.
+std::FILE* talk(const GapTrialCommandOptions& options) { return options.json == "-" ? stderr : stdout; }
 
- private:
-  static void write_whole(record::WholeFile& file, const std::string& text) {
-    file.write(text);
-    file.commit();
-  }
-  const GapTrialCommandOptions& options_;
-  std::optional<record::WholeFile> json_, page_;
-};
+void give(const GapTrialCommandOptions& options, const std::string& text, const std::string& json) {
+  fmt::print(talk(options), "{}", text);
+  if (options.json == "-") fmt::print("{}", json);
+  if (!options.json.empty() && options.json != "-") write_result(options.json, json);
+}
 
 std::vector<validation::TrialCase> cases_of(const GapTrialCommandOptions& options) {
+  const bool on_layouts = !options.layouts.empty();
   std::vector<int> numbers = options.only;
   if (numbers.empty()) {
     try {
-      numbers = validation::case_numbers(validation::trial_arms_named(options.arms), options.cases);
+      const validation::TrialRound round = on_layouts ? validation::layout_round() : validation::reference_round();
+      numbers = validation::case_numbers(validation::trial_arms_named(options.arms, round), options.cases, round);
     } catch (const std::invalid_argument& error) {
       throw base::Failure(base::Exit::usage, std::string("--arms: ") + error.what());
     }
   }
   std::vector<validation::TrialCase> cases;
-  cases.reserve(numbers.size());
+  with_exit_statuses(
+      [&] {
+        base::Progress progress("gap trial: cases");
+        if (on_layouts)
+          cases = validation::drawn_layout_cases(options.on_layouts, numbers,
+                                                 [&](double done) { progress.show(done); });
+      },
+      base::Exit::bad_input);
+  if (on_layouts) return cases;
   for (const int number : numbers)
-    cases.push_back(validation::drawn_case(options.seed, number, options.minutes, options.places));
+    cases.push_back(validation::drawn_case(options.seed, number, *options.minutes, options.places));
   return cases;
 }
 
 report::TrialReport report_on(const GapTrialCommandOptions& options, std::size_t asked_for,
                               validation::TrialRun run) {
   report::TrialReport report{options.seed,
-                             options.minutes,
+                             *options.minutes,
                              options.places,
                              asked_for,
                              std::move(run.ended_early),
                              std::move(run.results),
                              {},
-                             {}};
+                             {},
+                             options.on_layouts};
   report.scores = validation::trial_scores(report.results);
   report.confusion = validation::trial_confusion(report.results);
   return report;
@@ -113,14 +126,11 @@ std::vector<validation::Commitment> sealed(const std::vector<validation::TrialCa
 void run_active_trial(const GapTrialCommandOptions& options) {
   const base::Interruptible interruptible;
   const std::vector<validation::TrialCase> cases = cases_of(options);
-  std::optional<record::WholeFile> json;
-  if (!options.json.empty() && options.json != "-") json.emplace(options.json);
-  std::FILE* const out = options.json == "-" ? stderr : stdout;
-  const std::vector<validation::Commitment> seals = sealed(cases, options.seed, out);
+  const std::vector<validation::Commitment> seals = sealed(cases, options.seed, talk(options));
   validation::ActiveOptions active;
   active.program = options.asking.program;
   active.missions = options.missions;
-  active.minutes = options.minutes;
+  active.minutes = static_cast<int>(*options.minutes);
   active.bank_missions = options.asking.bank_missions;
   active.timeout = std::chrono::seconds(options.timeout_s);
   std::vector<validation::ActiveResult> results;
@@ -132,13 +142,7 @@ void run_active_trial(const GapTrialCommandOptions& options) {
       progress.show(static_cast<double>(i + 1) / static_cast<double>(cases.size()));
     }
   }
-  fmt::print(out, "{}", validation::active_text(results));
-  const std::string text = validation::active_json(results, options.seed);
-  if (options.json == "-") fmt::print("{}", text);
-  if (json) {
-    json->write(text);
-    json->commit();
-  }
+  give(options, validation::active_text(results), validation::active_json(results, options.seed));
   if (results.size() < cases.size()) {
     throw base::Failure(base::Exit::failed,
                         fmt::format("interrupted: {} of {} cases are scored", results.size(), cases.size()));
@@ -146,15 +150,15 @@ void run_active_trial(const GapTrialCommandOptions& options) {
 }
 
 void run(GapTrialCommandOptions options) {
-  if ((options.cases > 0) == !options.only.empty())
-    throw base::Failure(base::Exit::usage, "either --cases N or --only CASE is required");
+  complete(options);
+  // Hours later is too late to learn that a file cannot be written.
+  expect_results({}, {options.json, options.report});
+  if (!options.asking.keep.empty()) std::filesystem::create_directories(options.asking.keep);
   if (options.active) return run_active_trial(options);
   options.asking.timeout = std::chrono::seconds(options.timeout_s);
   const base::Interruptible interruptible;
   const std::vector<validation::TrialCase> cases = cases_of(options);
-  Outputs outputs(options);
-  std::FILE* const out = outputs.talk();
-
+  std::FILE* const out = talk(options);
   const std::vector<validation::Commitment> seals = sealed(cases, options.seed, out);
 
   validation::TrialRun answered;
@@ -169,7 +173,13 @@ void run(GapTrialCommandOptions options) {
     });
   }
   const report::TrialReport report = report_on(options, cases.size(), std::move(answered));
-  outputs.write(report);
+  give(options, report::trial_text(report), report::trial_json(report));
+  if (!options.report.empty()) write_result(options.report, report::trial_page(report));
+  if (!options.asking.keep.empty()) {
+    for (const validation::TrialResult& result : report.results)
+      write_result(options.asking.keep / fmt::format("{:04}", result.drawn.number) / "truth.json",
+                   result.seal.truth + '\n');
+  }
   if (!report.ended_early.empty()) {
     throw base::Failure(base::Exit::failed, fmt::format("{}: {} of {} cases are scored", report.ended_early,
                                                         report.results.size(), report.asked_for));
@@ -191,12 +201,26 @@ void add_gap_trial(CLI::App& gap) {
   add_number(command, "--missions", 1, validation::kMostPlannedMissions, options->missions,
              "missions that are sailed after the first one; with --active");
   add_defaulted(command, "--seed", options->seed, "seed of effects, strengths, vehicles and noise");
-  command->add_option("--minutes", options->minutes, "length of a mission, unless the arm has its own")
-      ->check(CLI::IsMember({3, 10}))
-      ->capture_default_str();
+  add_valued(
+      command, "--minutes", "M", options->minutes,
+      "length of a mission, unless the arm has its own: 3 or 10, default 10; with --layout 0.75 to 60, default 3")
+      ->check(CLI::Range(0.75, 60.0));
   add_number(command, "--places", 1, 100000, options->places,
              "number of places, dates and waters that are drawn, one of them for each case; null missions "
              "serve one place each");
+  auto& on = options->on_layouts;
+  add_repeatable(command, "--layout", "FILE.toml", options->layouts,
+                 "instead of the reference vehicle, vehicles by this layout, whose actuators are thrusters, up to "
+                 "eight; repeatable, vehicles take them by turns")
+      ->excludes("--places");
+  add_number(command, "--vehicles", 1, 1000, on.vehicles,
+             "number of vehicles; with --layout, like the next three");
+  add_number(command, "--nominal", 1, 100, on.nominal,
+             "recordings without an effect, of each vehicle, by which it is identified");
+  add_number(command, "--layout-error", 0.0, 0.2, on.layout_error,
+             "how far the vehicles are off their layouts, one standard deviation");
+  add_number(command, "--unmodelled", 0.0, 10.0, on.unmodelled,
+             "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell");
   add_valued(command, "--arms", "LIST", options->arms,
              "only these arms: nulls, singles, pairs, triples, short, removed, ...")
       ->delimiter(',');
@@ -220,8 +244,12 @@ void add_gap_trial(CLI::App& gap) {
   command->footer(
       "Effects are drawn, and a second, independent simulator makes the recordings. The diagnosis is a separate "
       "process that receives file names only. A case has the same number and truth in a trial of any length: 32 "
-      "cases make a round, a third of them without an effect.\n\n"
-      "Example: navcal research gap-trial --cases 544 --seed 7 --json trial.json --report trial.html");
+      "cases make a round (16 with --layout), a third of them without an effect. A vehicle with a layout is "
+      "identified "
+      "from its nominal recordings before its first case.\n\n"
+      "Examples:\n"
+      "  navcal research gap-trial --cases 544 --seed 7 --json trial.json --report trial.html\n"
+      "  navcal research gap-trial --cases 16 --layout /usr/share/navcal/vehicles/bluerov2-heavy.toml");
   command->callback([options] { run(*options); });
 }
 

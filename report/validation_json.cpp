@@ -43,9 +43,18 @@ OrderedJson json_of(const validation::TrialResult& result) {
 }  // namespace
 
 std::string trial_json(const TrialReport& report) {
-  OrderedJson json{
-      {"seed", report.seed},           {"minutes", report.minutes},         {"places", report.places},
-      {"asked_for", report.asked_for}, {"answered", report.results.size()}, {"ended_early", report.ended_early}};
+  OrderedJson json{{"seed", report.seed}, {"minutes", report.minutes}};
+  if (const validation::LayoutTrial& on = report.on_layouts; on.layouts.empty()) {
+    json["places"] = report.places;
+  } else {
+    for (const validation::NamedLayout& layout : on.layouts) json["layouts"].push_back(layout.name);
+    json.update({{"vehicles", on.vehicles},
+                 {"nominal", on.nominal},
+                 {"layout_error", on.layout_error},
+                 {"unmodelled", on.unmodelled}});
+  }
+  json.update(
+      {{"asked_for", report.asked_for}, {"answered", report.results.size()}, {"ended_early", report.ended_early}});
   auto& scores = json["scores"] = OrderedJson::array();
   for (const validation::TrialScore& score : report.scores.scores) scores.push_back(json_of(score));
   auto& power = json["power"] = OrderedJson::array();

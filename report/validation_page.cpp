@@ -121,8 +121,7 @@ void append_verdict(HtmlPage& page, const TrialReport& report) {
   }
   page.fact(missed ? "plain" : "good", "targets", targets_text(report.scores));
   page.fact("plain", "cases",
-            fmt::format("{} of {} answered; seed {}, missions of {} minutes, {} places.", report.results.size(),
-                        report.asked_for, report.seed, report.minutes, report.places));
+            fmt::format("{} of {} answered; {}.", report.results.size(), report.asked_for, trial_words(report)));
   if (!report.ended_early.empty()) page.fact("bad", "ended early", report.ended_early + ".");
 }
 
@@ -166,7 +165,7 @@ void append_cases(HtmlPage& page, const TrialReport& report, const char* title,
   }
   page.section(title);
   if (rows.empty()) return page.paragraph("None.");
-  page.paragraph("One of them again: " + rerun_command(report, 0));
+  page.paragraph("One of them again: " + rerun_command(report));
   page.table({"Case", "Arm", "Truth", "Answer", "Strongest channel"}, rows);
 }
 

@@ -59,21 +59,10 @@ std::string targets_text(const validation::TrialScores& scores) {
   return text + ".";
 }
 
-std::string scores_text(std::span<const validation::TrialScore> scores, int name_width) {
-  constexpr const char* kRow = "{:<{}}{:>9}  {:<16}{:<13}{:<16}{}\n";
-  std::string out = fmt::format(kRow, "", name_width, "score", "95 %", "cases", "target", "");
-  for (const validation::TrialScore& score : scores) {
-    std::string row = fmt::format(kRow, score.name, name_width, value_text(score), interval_text(score),
-                                  count_text(score), target_text(score), met_text(score));
-    row.erase(row.find_last_not_of(" \n") + 1);
-    out += row + '\n';
-  }
-  return out;
-}
-
 std::string truth_words(const validation::TrialCase& drawn) {
   std::string text;
-  for (const reference::Effect& effect : drawn.effects) text.append(text.empty() ? "" : ", ").append(effect.name);
+  for (const validation::TrialEffect& effect : drawn.effects)
+    text.append(text.empty() ? "" : ", ").append(effect.full_name());
   if (text.empty()) return "no effect";
   return drawn.excluded.empty() ? text : text + ", with removed from the library";
 }

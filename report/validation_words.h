@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "validation/score.h"
@@ -18,8 +17,6 @@ namespace navcal::report {
 [[nodiscard]] std::string met_text(const validation::TrialScore& score);
 /// Summary, such as "11 of 24 targets are met, 2 could not be judged."
 [[nodiscard]] std::string targets_text(const validation::TrialScores& scores);
-/// The scores as a table, their names in a column of `name_width`.
-[[nodiscard]] std::string scores_text(std::span<const validation::TrialScore> scores, int name_width);
 
 /// The effects that are present, and the one that is removed from the library.
 [[nodiscard]] std::string truth_words(const validation::TrialCase& drawn);

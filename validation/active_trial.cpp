@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -28,8 +27,7 @@ class ActiveCase {
  public:
   ActiveCase(const TrialCase& drawn, std::uint64_t seed, const ActiveOptions& options)
       : drawn_(drawn), options_(options), dice_(seed, (13ULL << 40U) + static_cast<std::uint64_t>(drawn.number)) {
-    vehicle_ = folder_.path() / "vehicle.toml";
-    std::ofstream(vehicle_) << fmt::format("[water]\ndensity_kg_m3 = {}\n", drawn.place.waters.density_kg_m3);
+    vehicle_ = write_vehicle_file(drawn.place, folder_.path());
     const auto surveys = trial_missions(facts_of(drawn.arm).missions, options.minutes);
     first_ = sail(surveys[0], "a.cap");
     holdout_ = sail(surveys[1], "b.cap");
@@ -147,7 +145,7 @@ std::optional<ActiveResult> run_active(const TrialCase& drawn, const Commitment&
 
 std::string_view active_outcome(const TrialCase& drawn, const TrialAnswer& answer) {
   std::set<std::string> truth, named;
-  for (const reference::Effect& effect : drawn.effects) truth.insert(effect.name);
+  for (const TrialEffect& effect : drawn.effects) truth.insert(effect.name);
   for (const TrialFinding& finding : answer.effects) named.insert(finding.name);
   if (named.empty()) return name_of(answer.verdict);
   if (!drawn.in_library()) return "wrong";

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 [[noreturn]] void fail(const std::string& why) { throw std::runtime_error("the answer is malformed: " + why); }
 
 TrialVerdict verdict_of(const std::string& name) {
-  const auto verdict = base::enum_named<TrialVerdict::unknown>(name, [](auto v) { return name_of(v); });
+  const auto verdict = base::enum_named<TrialVerdict::cannot_say>(name, [](auto v) { return name_of(v); });
   if (verdict) return *verdict;
   fail("there is no verdict \"" + name + "\"");
 }
@@ -78,7 +78,7 @@ std::vector<std::string> families_of(const Json& proposal) {
 }  // namespace
 
 std::string_view name_of(TrialVerdict verdict) {
-  return base::enum_name<TrialVerdict::unknown>(verdict, {"no-gap", "explained", "unknown"});
+  return base::enum_name<TrialVerdict::cannot_say>(verdict, {"no-gap", "explained", "unknown", "cannot-say"});
 }
 
 TrialAnswer read_answer(std::string_view text) {

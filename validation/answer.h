@@ -11,8 +11,8 @@
 
 namespace navcal::validation {
 
-enum class TrialVerdict : std::uint8_t { no_gap, explained, unknown };
-/// "no-gap", "explained", "unknown".
+enum class TrialVerdict : std::uint8_t { no_gap, explained, unknown, cannot_say };
+/// "no-gap", "explained", "unknown", "cannot-say" (the recording does not show it).
 [[nodiscard]] std::string_view name_of(TrialVerdict verdict);
 
 struct TrialEstimate {

@@ -35,31 +35,44 @@ constexpr std::array<TrialArm, kCasesPerRound> kRound{
     single_half, nulls,  single, foreign, nulls,   pairs,        nulls,        brief,
     removed,     nulls,  poor,   triples, nulls,   single_fifth, single_tenth, single_double};
 
+constexpr std::array kLayoutRound{nulls, single, removed, single,        nulls, foreign, single_half, single,
+                                  nulls, pairs,  nulls,   single_double, nulls, removed, single,      foreign};
+
+bool has(std::span<const TrialArm> arms, TrialArm arm) {
+  return std::find(arms.begin(), arms.end(), arm) != arms.end();
+}
+
 }  // namespace
 
 std::span<const TrialArmFacts> trial_arms() { return kArms; }
 
 const TrialArmFacts& facts_of(TrialArm arm) { return kArms[static_cast<std::size_t>(arm)]; }
 
-TrialArm arm_of_case(int number) { return kRound[static_cast<std::size_t>((number - 1) % kCasesPerRound)]; }
+TrialRound reference_round() { return kRound; }
 
-int ordinal_in_arm(int number) {
-  const TrialArm arm = arm_of_case(number);
-  const int rounds = (number - 1) / kCasesPerRound, place = (number - 1) % kCasesPerRound;
-  const auto in_round = std::count(kRound.begin(), kRound.end(), arm);
-  return static_cast<int>(rounds * in_round + std::count(kRound.begin(), kRound.begin() + place, arm));
+TrialRound layout_round() { return kLayoutRound; }
+
+TrialArm arm_of_case(int number, TrialRound round) {
+  return round[static_cast<std::size_t>(number - 1) % round.size()];
 }
 
-std::vector<TrialArm> trial_arms_named(const std::vector<std::string>& names) {
+int ordinal_in_arm(int number, TrialRound round) {
+  const TrialArm arm = arm_of_case(number, round);
+  const auto size = static_cast<std::ptrdiff_t>(round.size());
+  const std::ptrdiff_t rounds = (number - 1) / size, place = (number - 1) % size;
+  const auto in_round = std::count(round.begin(), round.end(), arm);
+  return static_cast<int>(rounds * in_round + std::count(round.begin(), round.begin() + place, arm));
+}
+
+std::vector<TrialArm> trial_arms_named(const std::vector<std::string>& names, TrialRound round) {
   std::vector<TrialArm> arms;
-  for (const TrialArmFacts& facts : kArms) {
-    if (names.empty()) arms.push_back(facts.arm);
-  }
-  for (const std::string& name : names) {
+  for (const std::string& name : names.empty() ? std::vector<std::string>{""} : names) {
     const std::size_t before = arms.size();
     std::string known;
     for (const TrialArmFacts& facts : kArms) {
-      const bool meant = facts.name == name || (name == "singles" && facts.name.starts_with("single-"));
+      if (!has(round, facts.arm)) continue;
+      const bool meant =
+          name.empty() || facts.name == name || (name == "singles" && facts.name.starts_with("single-"));
       if (meant) arms.push_back(facts.arm);
       known.append(known.empty() ? "" : ", ").append(facts.name);
     }
@@ -69,10 +82,10 @@ std::vector<TrialArm> trial_arms_named(const std::vector<std::string>& names) {
   return arms;
 }
 
-std::vector<int> case_numbers(const std::vector<TrialArm>& arms, int count) {
+std::vector<int> case_numbers(const std::vector<TrialArm>& arms, int count, TrialRound round) {
   std::vector<int> numbers;
   for (int number = 1; !arms.empty() && static_cast<int>(numbers.size()) < count; ++number) {
-    if (std::find(arms.begin(), arms.end(), arm_of_case(number)) != arms.end()) numbers.push_back(number);
+    if (has(arms, arm_of_case(number, round))) numbers.push_back(number);
   }
   return numbers;
 }

@@ -40,17 +40,26 @@ struct TrialArmFacts {
 [[nodiscard]] std::span<const TrialArmFacts> trial_arms();
 [[nodiscard]] const TrialArmFacts& facts_of(TrialArm arm);
 
-/// A case's arm follows from its number alone, so that it is the same case in a trial of any length: 32 to a
-/// round, of them 11 nulls; one each of nulls-6, single-0.5, single-2; two each of the others. 17 rounds give each
-/// of these 34 cases, as many as there are effects.
+/// Arms of the cases in the order of their numbers, over and over: a case's arm follows from its number alone, so
+/// that it is the same case in a trial of any length.
+using TrialRound = std::span<const TrialArm>;
+/// Of the reference vehicle: 11 nulls; one each of nulls-6, single-0.5, single-2; two each of the others. 17
+/// rounds give each of these 34 cases, as many as there are effects.
 inline constexpr int kCasesPerRound = 32;
-[[nodiscard]] TrialArm arm_of_case(int number);
-/// How many cases of the same arm have lower numbers.
-[[nodiscard]] int ordinal_in_arm(int number);
+[[nodiscard]] TrialRound reference_round();
+/// Of vehicles with a layout: 16 cases, of them five nulls.
+[[nodiscard]] TrialRound layout_round();
 
-/// Names of arms ("singles" stands for all strengths); none: all. Throws std::invalid_argument, which lists them.
-[[nodiscard]] std::vector<TrialArm> trial_arms_named(const std::vector<std::string>& names);
+[[nodiscard]] TrialArm arm_of_case(int number, TrialRound round = reference_round());
+/// How many cases of the same arm have lower numbers.
+[[nodiscard]] int ordinal_in_arm(int number, TrialRound round = reference_round());
+
+/// Names of arms of a round ("singles" stands for all strengths); none: all. Throws std::invalid_argument, which
+/// lists them.
+[[nodiscard]] std::vector<TrialArm> trial_arms_named(const std::vector<std::string>& names,
+                                                     TrialRound round = reference_round());
 /// The first `count` case numbers that belong to these arms.
-[[nodiscard]] std::vector<int> case_numbers(const std::vector<TrialArm>& arms, int count);
+[[nodiscard]] std::vector<int> case_numbers(const std::vector<TrialArm>& arms, int count,
+                                            TrialRound round = reference_round());
 
 }  // namespace navcal::validation

@@ -12,6 +12,7 @@
 
 #include "record/content_hash.h"
 #include "validation/confounded_effects.h"
+#include "validation/layout_cases.h"
 
 namespace navcal::validation {
 namespace {
@@ -29,21 +30,14 @@ constexpr double kTolerance = 0.02, kLooseTolerance = 0.06;
 /// Orders of drawing lie apart from the cases themselves.
 constexpr std::uint64_t kOrderStream = 1ULL << 32U;
 
-/// Which of `count` comes at a place of an endless series, in which each comes once before any comes again.
-std::size_t in_turn(std::uint64_t seed, TrialArm arm, int place, std::size_t count) {
-  const std::size_t cycle = static_cast<std::size_t>(place) / count;
-  reference::Rng dice(seed, kOrderStream + 4096 * cycle + static_cast<std::uint64_t>(arm));
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[dice.bits() % i]);
-  return order[static_cast<std::size_t>(place) % count];
-}
-
 using Kinds = std::vector<const reference::EffectKind*>;
 
 Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, reference::Rng& dice) {
   const auto library = reference::library_effects();
-  const auto turn = [&](std::size_t count) { return in_turn(seed, arm, place, count); };
+  const auto turn_at = [&](int at, std::size_t count) {
+    return in_turn(seed, kOrderStream + static_cast<std::uint64_t>(arm), 4096, at, count);
+  };
+  const auto turn = [&](std::size_t count) { return turn_at(place, count); };
   const auto add_any = [&](Kinds& kinds) {
     const reference::EffectKind* kind = nullptr;
     do kind = &library[dice.bits() % library.size()];
@@ -60,11 +54,11 @@ Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, reference::Rng& 
     case TrialArm::pairs:
       if (place % 2 == 1) {
         const auto pairs = confounded_pairs();
-        const ConfoundedEffects& pair = pairs[in_turn(seed, arm, place / 2, pairs.size())];
+        const ConfoundedEffects& pair = pairs[turn_at(place / 2, pairs.size())];
         kinds = {reference::find_effect(pair.first), reference::find_effect(pair.second)};
         break;
       }
-      kinds.push_back(&library[in_turn(seed, arm, place / 2, library.size())]);
+      kinds.push_back(&library[turn_at(place / 2, library.size())]);
       add_any(kinds);
       break;
     case TrialArm::triples:
@@ -96,8 +90,22 @@ nlohmann::ordered_json json_of(const TrialPlace& place) {
           {"density_kg_m3", place.waters.density_kg_m3}};
 }
 
-nlohmann::ordered_json json_of(const reference::Effect& effect) {
-  return {{"name", effect.name}, {"parameters", effect.parameters}};
+/// The parameters that the vehicle has of an effect.
+TrialParameters real_parameters(const reference::EffectKind& kind, const reference::VehicleUnderTest& vehicle) {
+  reference::ParameterDeviations deviations = vehicle.deviations;
+  const double* const field = kind.field(deviations);
+  TrialParameters real;
+  for (std::size_t i = 0; i < kind.parameters.size(); ++i)
+    real.emplace(kind.parameters[i], field[i] / kind.size.si);
+  return real;
+}
+
+nlohmann::ordered_json json_of(const TrialEffect& effect, const TrialParameters& parameters) {
+  nlohmann::ordered_json json{{"name", effect.name}};
+  if (!effect.of.empty()) json["of"] = effect.of;
+  if (!effect.of_name.empty()) json["of_name"] = effect.of_name;
+  json["parameters"] = parameters;
+  return json;
 }
 
 }  // namespace
@@ -108,9 +116,17 @@ Commitment commitment_to(std::string truth) {
   return seal;
 }
 
+std::size_t in_turn(std::uint64_t seed, std::uint64_t stream, std::uint64_t stride, int place, std::size_t count) {
+  reference::Rng dice(seed, stream + stride * (static_cast<std::size_t>(place) / count));
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[dice.bits() % i]);
+  return order[static_cast<std::size_t>(place) % count];
+}
+
 bool TrialCase::in_library() const { return arm != TrialArm::foreign && arm != TrialArm::removed; }
 
-TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places) {
+TrialCase drawn_case(std::uint64_t seed, int number, double minutes, int places) {
   TrialCase drawn;
   drawn.number = number;
   drawn.arm = arm_of_case(number);
@@ -122,9 +138,12 @@ TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places) {
   const double tolerance = drawn.arm == TrialArm::nulls_6 ? kLooseTolerance : kTolerance;
   reference::apply_tolerance(tolerance, drawn.vehicle.deviations, dice);
   for (const reference::EffectKind* kind : chosen_kinds(seed, drawn.arm, ordinal_in_arm(number), dice)) {
-    drawn.effects.push_back(reference::drawn(*kind, facts.strength, dice));
-    reference::add(drawn.effects.back(), drawn.vehicle.deviations);
+    const reference::Effect effect = reference::drawn(*kind, facts.strength, dice);
+    drawn.effects.push_back({effect.name, effect.parameters});
+    reference::add(effect, drawn.vehicle.deviations);
   }
+  for (TrialEffect& effect : drawn.effects)
+    effect.real = real_parameters(*reference::find_effect(effect.name), drawn.vehicle);
   drawn.vehicle.clocks = drawn_clocks(dice);
   drawn.place_number = static_cast<int>(dice.bits() % static_cast<std::uint64_t>(places));
   drawn.place = drawn_place(seed, drawn.place_number);
@@ -132,35 +151,27 @@ TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places) {
   return drawn;
 }
 
-reference::Effect true_parameters(const reference::Effect& effect, const reference::VehicleUnderTest& vehicle) {
-  const reference::EffectKind& kind = *reference::find_effect(effect.name);
-  reference::ParameterDeviations deviations = vehicle.deviations;
-  const double* const field = kind.field(deviations);
-  reference::Effect real{effect.name, {}};
-  for (std::size_t i = 0; i < kind.parameters.size(); ++i)
-    real.parameters.emplace(kind.parameters[i], field[i] / kind.size.si);
-  return real;
-}
-
 std::string truth_text(const TrialCase& drawn, std::uint64_t seed) {
   auto effects = nlohmann::ordered_json::array(), real = nlohmann::ordered_json::array();
-  for (const reference::Effect& effect : drawn.effects) {
-    effects.push_back(json_of(effect));
-    real.push_back(json_of(true_parameters(effect, drawn.vehicle)));
+  for (const TrialEffect& effect : drawn.effects) {
+    effects.push_back(json_of(effect, effect.drawn));
+    real.push_back(json_of(effect, effect.real));
   }
-  const nlohmann::ordered_json truth{{"case", drawn.number},
-                                     {"seed", seed},
-                                     {"arm", facts_of(drawn.arm).name},
-                                     {"minutes", drawn.minutes},
-                                     {"excluded", drawn.excluded},
-                                     {"drawn", effects},
-                                     {"with_tolerance", real},
-                                     {"place", json_of(drawn.place)},
-                                     {"clocks",
-                                      {{"compass", drawn.vehicle.clocks.compass},
-                                       {"card", drawn.vehicle.clocks.card},
-                                       {"motor", drawn.vehicle.clocks.motor}}},
-                                     {"mission_seeds", drawn.mission_seeds}};
+  nlohmann::ordered_json truth{{"case", drawn.number},
+                               {"seed", seed},
+                               {"arm", facts_of(drawn.arm).name},
+                               {"minutes", drawn.minutes},
+                               {"excluded", drawn.excluded},
+                               {"drawn", effects},
+                               {"with_tolerance", real},
+                               {"place", json_of(drawn.place)}};
+  if (drawn.on_layout != nullptr) {
+    truth["vehicle"] = nlohmann::ordered_json::parse(drawn.on_layout->vehicle->truth);
+  } else {
+    const auto& clocks = drawn.vehicle.clocks;
+    truth["clocks"] = {{"compass", clocks.compass}, {"card", clocks.card}, {"motor", clocks.motor}};
+  }
+  truth["mission_seeds"] = drawn.mission_seeds;
   return truth.dump();
 }
 

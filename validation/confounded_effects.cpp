@@ -2,6 +2,7 @@
 #include "validation/confounded_effects.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "sim/effects/effect_table.h"
@@ -103,7 +104,48 @@ std::vector<TrialSignature> all_signatures() {
   return all;
 }
 
+/// Effects of a vehicle with thrusters that leave nearly the same traces.
+bool is_pair(std::string_view a, std::string_view b) {
+  constexpr std::array<ConfoundedEffects, 8> kPairs{{{"weight", "buoyancy"},
+                                                     {"weight", "gravity_shift"},
+                                                     {"buoyancy", "gravity_shift"},
+                                                     {"gravity_shift", "tilt_offset"},
+                                                     {"damping", "thrust_scale"},
+                                                     {"damping", "water_current"},
+                                                     {"added_mass", "weight"},
+                                                     {"thruster_offset", "buoyancy"}}};
+  return std::any_of(kPairs.begin(), kPairs.end(), [&](const ConfoundedEffects& pair) {
+    return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+  });
+}
+
+/// "thrust_scale" and "thruster.2" of "thrust_scale of thruster.2".
+std::array<std::string_view, 2> parts_of(std::string_view full_name) {
+  constexpr std::string_view kOf = " of ";
+  const std::size_t at = full_name.find(kOf);
+  if (at == std::string_view::npos) return {full_name, {}};
+  return {full_name.substr(0, at), full_name.substr(at + kOf.size())};
+}
+
+bool belongs(const TrialEffect& effect, std::string_view of) {
+  return of == effect.of || (!of.empty() && of == effect.of_name);
+}
+
 }  // namespace
+
+bool is_same(const TrialEffect& effect, std::string_view full_name) {
+  const auto [name, of] = parts_of(full_name);
+  return name == effect.name && belongs(effect, of);
+}
+
+bool is_confounded(const TrialEffect& effect, std::string_view full_name) {
+  const auto [name, of] = parts_of(full_name);
+  if (name == effect.name) return belongs(effect, of);
+  if ((!effect.of.empty() && belongs(effect, of)) || is_pair(effect.name, name)) return true;
+  const TrialSignature* const signature = signature_of(effect.name);
+  return signature != nullptr && std::find(signature->confounders.begin(), signature->confounders.end(), name) !=
+                                     signature->confounders.end();
+}
 
 std::span<const TrialSignature> trial_signatures() {
   static const std::vector<TrialSignature> all = all_signatures();

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "validation/cases.h"
+
 namespace navcal::validation {
 
 /// Effects with which one effect is easily confounded, and channels in which it shows. Derived from the equations,
@@ -27,6 +29,12 @@ struct TrialSignature {
 [[nodiscard]] std::span<const TrialSignature> trial_signatures();
 /// nullptr when there is none of this name.
 [[nodiscard]] const TrialSignature* signature_of(std::string_view effect);
+
+/// Whether an answer names this effect: by its name, and by what it belongs to ("thruster.2" or its name).
+[[nodiscard]] bool is_same(const TrialEffect& effect, std::string_view full_name);
+/// Whether what an answer names is easily taken for this effect: of the same thruster or axis; weight, buoyancy
+/// and balance; drag against thrust; the confounders of its signature.
+[[nodiscard]] bool is_confounded(const TrialEffect& effect, std::string_view full_name);
 
 struct ConfoundedEffects {
   std::string_view first, second;

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "validation/confounded_effects.h"
+
 namespace navcal::validation {
 namespace {
 
@@ -19,7 +21,7 @@ std::vector<std::string> truths_of(const TrialCase& drawn) {
     default: break;
   }
   std::vector<std::string> names;
-  for (const reference::Effect& effect : drawn.effects) names.push_back(effect.name);
+  for (const TrialEffect& effect : drawn.effects) names.push_back(effect.full_name());
   return names;
 }
 
@@ -30,7 +32,11 @@ void count_case(const TrialResult& result, Counts& counts) {
   };
   std::vector<std::string> named, wrong;
   if (result.answer) {
-    for (const TrialFinding& finding : result.answer->effects) named.push_back(finding.name);
+    for (const TrialFinding& finding : result.answer->effects) {
+      named.push_back(finding.name);
+      for (const TrialEffect& effect : result.drawn.effects)
+        if (is_same(effect, finding.name)) named.back() = effect.full_name();
+    }
   }
   std::copy_if(named.begin(), named.end(), std::back_inserter(wrong),
                [&](const auto& name) { return !is_there(name); });
@@ -40,7 +46,7 @@ void count_case(const TrialResult& result, Counts& counts) {
       answers = {"no answer"};
     } else if (result.answer->verdict == TrialVerdict::no_gap) {
       answers = {"no gap"};
-    } else if (result.answer->verdict == TrialVerdict::unknown) {
+    } else if (result.answer->verdict != TrialVerdict::explained) {
       answers = {"unknown"};
     } else if (std::find(named.begin(), named.end(), truth) != named.end()) {
       answers = {truth};

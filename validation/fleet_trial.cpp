@@ -293,8 +293,7 @@ void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, un
     throw std::invalid_argument(folder.string() + ": the folder is not empty");
   }
   std::filesystem::create_directories(folder);
-  write_file(folder / "vehicle.toml",
-             fmt::format("[water]\ndensity_kg_m3 = {}\n", fleet.place.waters.density_kg_m3));
+  write_vehicle_file(fleet.place, folder);
   struct Mission {
     int vehicle = 0, day = 0;
     std::uint64_t seed = 0;

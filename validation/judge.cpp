@@ -13,12 +13,19 @@ namespace {
 /// Least probability of a candidate that counts. Hundreds of improbable ones would improve any calibration error.
 constexpr double kLeastBet = 0.05;
 
-bool holds(const std::vector<reference::Effect>& effects, std::string_view name) {
-  return std::any_of(effects.begin(), effects.end(), [&](const auto& effect) { return effect.name == name; });
+bool holds(const std::vector<TrialEffect>& effects, std::string_view full_name) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const auto& effect) { return is_same(effect, full_name); });
 }
 
-bool holds(const std::vector<TrialFinding>& findings, std::string_view name) {
-  return std::any_of(findings.begin(), findings.end(), [&](const auto& finding) { return finding.name == name; });
+bool holds(const std::vector<TrialFinding>& findings, const TrialEffect& effect) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [&](const auto& finding) { return is_same(effect, finding.name); });
+}
+
+bool is_twin(const TrialAnswer& answer, const TrialEffect& effect) {
+  return std::any_of(answer.twins.begin(), answer.twins.end(),
+                     [&](const std::string& twin) { return is_same(effect, twin); });
 }
 
 template <class List>
@@ -29,26 +36,29 @@ bool contains(const List& list, std::string_view name) {
 TrialOutcome outcome_of(const TrialCase& drawn, const TrialAnswer& answer) {
   if (answer.verdict == TrialVerdict::no_gap) return TrialOutcome::no_gap;
   if (answer.verdict == TrialVerdict::unknown) return TrialOutcome::unknown;
+  if (answer.verdict == TrialVerdict::cannot_say) return TrialOutcome::cannot_say;
   const auto all_named = [&](auto condition) {
     return std::all_of(answer.effects.begin(), answer.effects.end(), condition);
   };
-  if (const TrialSignature* removed = signature_of(drawn.excluded)) {
-    const bool in_class = all_named([&](const TrialFinding& f) { return contains(removed->confounders, f.name); });
-    return in_class ? TrialOutcome::in_class : TrialOutcome::wrong;
-  }
-  if (!drawn.in_library() || !all_named([&](const TrialFinding& f) { return holds(drawn.effects, f.name); }))
-    return TrialOutcome::wrong;
-  return answer.effects.size() == drawn.effects.size() ? TrialOutcome::exact : TrialOutcome::part;
+  if (drawn.in_library() && all_named([&](const TrialFinding& f) { return holds(drawn.effects, f.name); }))
+    return answer.effects.size() == drawn.effects.size() ? TrialOutcome::exact : TrialOutcome::part;
+  const auto in_class = [&](const TrialFinding& finding) {
+    return std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const TrialEffect& effect) {
+      return is_confounded(effect, finding.name) || is_twin(answer, effect);
+    });
+  };
+  const bool has_class = !drawn.excluded.empty() || (drawn.on_layout != nullptr && drawn.in_library());
+  return has_class && all_named(in_class) ? TrialOutcome::in_class : TrialOutcome::wrong;
 }
 
 bool right_for(TrialArm arm, const TrialJudgement& judgement) {
+  const bool is_open = judgement.outcome == TrialOutcome::unknown || judgement.outcome == TrialOutcome::cannot_say;
   switch (arm) {
     case TrialArm::nulls: return judgement.outcome == TrialOutcome::no_gap;
     case TrialArm::nulls_6:
       return judgement.outcome == TrialOutcome::no_gap || judgement.outcome == TrialOutcome::unknown;
-    case TrialArm::foreign: return judgement.outcome == TrialOutcome::unknown;
-    case TrialArm::removed:
-      return judgement.outcome == TrialOutcome::unknown || judgement.outcome == TrialOutcome::in_class;
+    case TrialArm::foreign: return is_open;
+    case TrialArm::removed: return is_open || judgement.outcome == TrialOutcome::in_class;
     case TrialArm::poor:
       if (judgement.outcome == TrialOutcome::unknown) return judgement.truth_considered.value_or(false);
       return judgement.outcome == TrialOutcome::exact;
@@ -60,16 +70,16 @@ void judge_names(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
   const auto& ranked = answer.effects.empty() ? answer.candidates : answer.effects;
   judgement.top_right = !ranked.empty() && holds(drawn.effects, ranked.front().name);
   judgement.truth_considered = std::all_of(drawn.effects.begin(), drawn.effects.end(), [&](const auto& effect) {
-    return holds(answer.effects, effect.name) || holds(answer.candidates, effect.name) ||
-           contains(answer.twins, effect.name);
+    return holds(answer.effects, effect) || holds(answer.candidates, effect) || is_twin(answer, effect);
   });
 }
 
 void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgement& judgement) {
-  if (answer.verdict == TrialVerdict::no_gap) return;
+  // Signatures are those of the reference vehicle.
+  if (answer.verdict == TrialVerdict::no_gap || drawn.on_layout != nullptr) return;
   const auto is_first = [&](const std::vector<std::string>& named, auto TrialSignature::*right) {
     return !named.empty() &&
-           std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const reference::Effect& effect) {
+           std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const TrialEffect& effect) {
              const TrialSignature* signature = signature_of(effect.name);
              return signature != nullptr && contains(signature->*right, named.front());
            });
@@ -77,7 +87,7 @@ void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
   judgement.channel_right = is_first(answer.channels, &TrialSignature::channels);
   if (drawn.arm == TrialArm::foreign) {
     judgement.family_right =
-        std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const reference::Effect& effect) {
+        std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const TrialEffect& effect) {
           const TrialSignature* signature = signature_of(effect.name);
           return signature != nullptr &&
                  std::any_of(answer.families.begin(), answer.families.end(),
@@ -87,10 +97,19 @@ void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
   judgement.source_right = is_first(answer.sources, &TrialSignature::sources);
 }
 
+/// The true parameters: those whose estimate lies within two standard errors, and all.
 void judge_parameters(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgement& judgement) {
   for (const TrialFinding& finding : answer.effects) {
-    count_within(finding, true_parameters({finding.name, {}}, drawn.vehicle).parameters,
-                 judgement.parameters_within, judgement.parameters);
+    for (const TrialEffect& effect : drawn.effects) {
+      if (!is_same(effect, finding.name)) continue;
+      for (const auto& [key, value] : effect.real) {
+        ++judgement.parameters;
+        const auto estimate = finding.parameters.find(key);
+        if (estimate == finding.parameters.end() || !estimate->second.std_error) continue;
+        if (std::abs(estimate->second.value - value) <= 2 * *estimate->second.std_error)
+          ++judgement.parameters_within;
+      }
+    }
   }
 }
 
@@ -99,7 +118,9 @@ void judge_probabilities(const TrialCase& drawn, const TrialAnswer& answer, Tria
   for (const TrialFinding& finding : answer.effects)
     judgement.bets.push_back({finding.probability, holds(drawn.effects, finding.name)});
   for (const TrialFinding& finding : answer.candidates) {
-    if (finding.probability < kLeastBet || holds(answer.effects, finding.name)) continue;
+    const auto is_named = [&](const TrialFinding& other) { return other.name == finding.name; };
+    if (finding.probability < kLeastBet || std::any_of(answer.effects.begin(), answer.effects.end(), is_named))
+      continue;
     judgement.bets.push_back({finding.probability, holds(drawn.effects, finding.name)});
   }
 }
@@ -107,19 +128,9 @@ void judge_probabilities(const TrialCase& drawn, const TrialAnswer& answer, Tria
 }  // namespace
 
 std::string_view name_of(TrialOutcome outcome) {
-  constexpr std::array<std::string_view, kTrialOutcomes> kNames{"exact",   "part",   "class", "wrong name",
-                                                                "unknown", "no gap", "failed"};
+  constexpr std::array<std::string_view, kTrialOutcomes> kNames{"exact",   "part",       "class",  "wrong name",
+                                                                "unknown", "cannot say", "no gap", "failed"};
   return kNames[static_cast<std::size_t>(outcome)];
-}
-
-void count_within(const TrialFinding& finding, const std::map<std::string, double, std::less<>>& truth,
-                  int& within, int& all) {
-  for (const auto& [key, value] : truth) {
-    ++all;
-    const auto estimate = finding.parameters.find(key);
-    if (estimate == finding.parameters.end() || !estimate->second.std_error) continue;
-    if (std::abs(estimate->second.value - value) <= 2 * *estimate->second.std_error) ++within;
-  }
 }
 
 TrialJudgement judged(const TrialResult& result) {

@@ -24,15 +24,18 @@ struct TrialResult {
 };
 
 enum class TrialOutcome : std::uint8_t {
-  exact,     ///< all effects that are there are named, and no other
-  part,      ///< only such, but not all
-  in_class,  ///< the removed effect's twins, and no other
-  wrong,     ///< something is named that is not there
+  exact,  ///< all effects that are there are named, and no other
+  part,   ///< only such, but not all
+  /// What is named is easily taken for what is there, or said to be confused with it: counted where the effect is
+  /// removed from the library, and of layouts. Of a library effect of the reference vehicle that is a wrong name.
+  in_class,
+  wrong,  ///< something is named that is not there
   unknown,
+  cannot_say,
   no_gap,
   failed,  ///< no answer
 };
-inline constexpr int kTrialOutcomes = 7;
+inline constexpr int kTrialOutcomes = 8;
 [[nodiscard]] std::string_view name_of(TrialOutcome outcome);
 
 /// A probability that was given, and whether the effect is there.
@@ -60,10 +63,6 @@ struct TrialJudgement {
 /// of the parameters leave is their squares, less than the interval can resolve; in directions that the missions
 /// do not show they may be large and leave nothing.)
 inline constexpr double kTrueClosure = 1;
-
-/// Adds the true parameters of a finding: those whose estimate lies within two standard errors, and all.
-void count_within(const TrialFinding& finding, const std::map<std::string, double, std::less<>>& truth,
-                  int& within, int& all);
 
 [[nodiscard]] TrialJudgement judged(const TrialResult& result);
 

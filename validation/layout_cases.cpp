@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validation/layout_cases.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 
+#include "base/failure.h"
+#include "validation/recordings.h"
 #include "validation/reference/effects.h"
 #include "validation/reference/thrusters/outputs.h"
 
@@ -15,70 +22,42 @@ namespace {
 namespace thrusters = reference::thrusters;
 using nlohmann::ordered_json;
 
-// Streams of the dice: vehicles, days and cases draw apart.
+// Streams of the dice: vehicles, days, cases and missions draw apart.
 constexpr std::uint64_t kVehicleStream = 2ULL << 40U, kDayStream = 3ULL << 40U, kCaseStream = 4ULL << 40U,
-                        kTurnStream = 5ULL << 40U, kSwimStream = 6ULL << 40U;
+                        kTurnStream = 5ULL << 40U, kSwimStream = 6ULL << 40U, kMissionStream = 7ULL << 40U;
 constexpr double kInstrumentTolerance = 0.02;
 /// After so many draws of an effect with which a vehicle cannot swim comes the next one.
-constexpr int kAttemptsOfAnEffect = 6;
-
-constexpr std::array<std::string_view, kLayoutArms> kLayoutArmNames{"nulls", "single-0.5", "single-1", "single-2",
-                                                                    "pairs", "removed",    "foreign"};
-
-// Sixteen to a round.
-constexpr std::array kLayoutRound{
-    LayoutArm::nulls, LayoutArm::single,  LayoutArm::removed,     LayoutArm::single,
-    LayoutArm::nulls, LayoutArm::foreign, LayoutArm::single_half, LayoutArm::single,
-    LayoutArm::nulls, LayoutArm::pairs,   LayoutArm::nulls,       LayoutArm::single_double,
-    LayoutArm::nulls, LayoutArm::removed, LayoutArm::single,      LayoutArm::foreign};
-
-LayoutArm layout_arm_of(int number) {
-  return kLayoutRound[static_cast<std::size_t>(number - 1) % kLayoutRound.size()];
-}
-
-/// How many cases of the same arm have lower numbers.
-int turn_of(int number) {
-  const LayoutArm arm = layout_arm_of(number);
-  int turn = 0;
-  for (int earlier = 1; earlier < number; ++earlier) turn += layout_arm_of(earlier) == arm ? 1 : 0;
-  return turn;
-}
-
-double strength_of(LayoutArm arm) {
-  if (arm == LayoutArm::single_half) return 0.5;
-  return arm == LayoutArm::single_double ? 2 : 1;
-}
+constexpr int kAttemptsOfAnEffect = 6, kMostAttempts = 20;
 
 /// Effects of thrusters and vehicle, or of instruments; of the library, or those outside it; in an order of the
 /// seed's, over and over.
-const thrusters::CraftEffectKind& effect_in_turn(std::uint64_t seed, LayoutArm arm, bool is_instrument,
-                                                 int place) {
+const thrusters::CraftEffectKind& effect_in_turn(std::uint64_t seed, TrialArm arm, bool is_instrument, int place) {
+  /// Each has streams of its own.
+  constexpr std::array kOrder{TrialArm::nulls, TrialArm::single_half, TrialArm::single, TrialArm::single_double,
+                              TrialArm::pairs, TrialArm::removed,     TrialArm::foreign};
   std::vector<const thrusters::CraftEffectKind*> kinds;
   for (const thrusters::CraftEffectKind& kind : thrusters::craft_effects()) {
-    if (kind.in_library == (arm != LayoutArm::foreign) &&
+    if (kind.in_library == (arm != TrialArm::foreign) &&
         (kind.scope == thrusters::Scope::instrument) == is_instrument)
       kinds.push_back(&kind);
   }
-  const std::size_t cycle = static_cast<std::size_t>(place) / kinds.size();
-  reference::Rng dice(seed,
-                      kTurnStream + 64 * cycle + 2 * static_cast<std::uint64_t>(arm) + (is_instrument ? 1 : 0));
-  for (std::size_t i = kinds.size(); i > 1; --i) std::swap(kinds[i - 1], kinds[dice.bits() % i]);
-  return *kinds[static_cast<std::size_t>(place) % kinds.size()];
+  const auto of_arm = static_cast<std::uint64_t>(std::find(kOrder.begin(), kOrder.end(), arm) - kOrder.begin());
+  return *kinds[in_turn(seed, kTurnStream + 2 * of_arm + (is_instrument ? 1 : 0), 64, place, kinds.size())];
 }
 
 /// Two of three single effects are the vehicle's, the third an instrument's; of a pair, one is of each.
 std::vector<thrusters::CraftEffect> drawn_effects(std::uint64_t seed, int number, int attempt,
                                                   const thrusters::Plan& layout, reference::Rng& dice) {
-  const LayoutArm arm = layout_arm_of(number);
-  const int turn = turn_of(number);
+  const TrialArm arm = arm_of_case(number, layout_round());
+  const int turn = ordinal_in_arm(number, layout_round());
   std::vector<thrusters::CraftEffect> effects;
   const auto add = [&](bool is_instrument, int place) {
     const thrusters::CraftEffectKind& kind =
         effect_in_turn(seed, arm, is_instrument, place + attempt / kAttemptsOfAnEffect);
-    effects.push_back(thrusters::drawn(kind, strength_of(arm), layout, dice));
+    effects.push_back(thrusters::drawn(kind, facts_of(arm).strength, layout, dice));
   };
-  if (arm == LayoutArm::nulls) return effects;
-  if (arm == LayoutArm::pairs) {
+  if (arm == TrialArm::nulls) return effects;
+  if (arm == TrialArm::pairs) {
     add(false, turn);
     add(true, turn);
   } else if (turn % 3 == 2) {
@@ -89,14 +68,12 @@ std::vector<thrusters::CraftEffect> drawn_effects(std::uint64_t seed, int number
   return effects;
 }
 
-ordered_json json_of(const thrusters::CraftEffect& effect, const thrusters::Plan& layout) {
-  ordered_json json{{"name", effect.name}};
-  if (!effect.of.empty()) json["of"] = effect.of;
+TrialEffect trial_effect(const thrusters::CraftEffect& effect, const thrusters::Plan& layout) {
+  TrialEffect made{effect.name, effect.parameters, effect.parameters, effect.of, {}};
   for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
-    if (effect.of == "thruster." + std::to_string(i + 1)) json["of_name"] = layout.thrusters[i].name;
+    if (effect.of == "thruster." + std::to_string(i + 1)) made.of_name = layout.thrusters[i].name;
   }
-  json["parameters"] = effect.parameters;
-  return json;
+  return made;
 }
 
 ordered_json numbers_of(const reference::Matrix6& matrix) {
@@ -133,106 +110,13 @@ ordered_json json_of(const thrusters::Plan& real, const thrusters::Plan& layout)
           {"thrusters", each}};
 }
 
-}  // namespace
-
-std::string_view name_of(LayoutArm arm) { return kLayoutArmNames[static_cast<std::size_t>(arm)]; }
-
-LayoutArm layout_arm_named(std::string_view name) {
-  const auto* const found = std::find(kLayoutArmNames.begin(), kLayoutArmNames.end(), name);
-  if (found != kLayoutArmNames.end()) return static_cast<LayoutArm>(found - kLayoutArmNames.begin());
-  std::string known;
-  for (const std::string_view one : kLayoutArmNames) known.append(known.empty() ? "" : ", ").append(one);
-  throw std::invalid_argument("there is no arm " + std::string(name) + "; there are " + known);
-}
-
-LayoutVehicleCase drawn_vehicle(std::uint64_t seed, int number, std::span<const NamedLayout> layouts,
-                                const LayoutErrors& errors) {
-  LayoutVehicleCase vehicle;
-  vehicle.number = number;
-  vehicle.layout = layouts[static_cast<std::size_t>(number - 1) % layouts.size()];
-  thrusters::CraftUnderTest& craft = vehicle.craft;
-  try {
-    craft.layout = thrusters::plan_of(vehicle.layout.text);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(vehicle.layout.name + ": " + error.what());
-  }
-  if (craft.layout.thrusters.size() > thrusters::kOutputChannels)
-    throw std::invalid_argument(vehicle.layout.name + ": more than eight thrusters cannot be reported");
-  reference::Rng dice(seed, kVehicleStream + static_cast<std::uint64_t>(number));
-  craft.real = thrusters::perturbed(craft.layout, errors.layout, dice);
-  craft.nature.resistance = dice.uniform(0.2, 0.4);
-  craft.nature.overshoot = errors.unmodelled * dice.uniform(0.05, 0.2);
-  craft.nature.jet_loss = std::min(errors.unmodelled * dice.uniform(0, 0.04), 1.0);
-  craft.nature.strips = std::min(errors.unmodelled * dice.uniform(0, 0.1), 1.0);
-  craft.nature.current_m_s *= errors.unmodelled;
-  craft.nature.wave_m *= errors.unmodelled;
-  craft.doppler = {dice.normal(0.003), dice.normal(1e-4)};
-  reference::apply_tolerance(kInstrumentTolerance, craft.differences.instruments, dice);
-  constexpr double kGreatestClockError = 0.01;
-  craft.compass_clock = dice.uniform(-kGreatestClockError, kGreatestClockError);
-  craft.card_clock = dice.uniform(-kGreatestClockError, kGreatestClockError);
-  vehicle.place = drawn_place(seed, number);
-  return vehicle;
-}
-
-thrusters::CraftUnderTest nominal_day(std::uint64_t seed, const LayoutVehicleCase& vehicle, int day) {
-  reference::Rng dice(
-      seed, kDayStream + (static_cast<std::uint64_t>(vehicle.number) << 20U) + static_cast<std::uint64_t>(day));
-  thrusters::CraftUnderTest craft = vehicle.craft;
-  craft.real = thrusters::perturbed(craft.real, kDayTolerance, dice);
-  return craft;
-}
-
-LayoutCase drawn_layout_case(std::uint64_t seed, int number, const LayoutVehicleCase& vehicle, int attempt) {
-  reference::Rng dice(
-      seed, kCaseStream + (static_cast<std::uint64_t>(number) << 8U) + static_cast<std::uint64_t>(attempt));
-  LayoutCase drawn;
-  drawn.number = number;
-  drawn.vehicle = vehicle.number;
-  drawn.arm = layout_arm_of(number);
-  drawn.craft = vehicle.craft;
-  drawn.craft.real = thrusters::perturbed(drawn.craft.real, kDayTolerance, dice);
-  drawn.effects = drawn_effects(seed, number, attempt, vehicle.craft.layout, dice);
-  for (const thrusters::CraftEffect& effect : drawn.effects)
-    thrusters::add(effect, vehicle.craft.layout, drawn.craft.differences);
-  if (drawn.arm == LayoutArm::removed) drawn.excluded = drawn.effects.front().name;
-  return drawn;
-}
-
-thrusters::Swim drawn_swim(const LayoutVehicleCase& vehicle, std::uint64_t mission_seed, double duration_s,
-                           int day) {
-  reference::Rng dice(mission_seed, kSwimStream);
-  thrusters::Swim swim;
-  swim.start_ns = vehicle.place.begin_ns + day * kDay_ns;
-  swim.duration_s = duration_s;
-  swim.legs = thrusters::drawn_legs(vehicle.craft.layout, duration_s, dice);
-  swim.start.position_m.z() = swim.legs.front().depth_m;
-  swim.start.world_from_body = reference::attitude(0, 0, dice.uniform(0, 2 * std::numbers::pi));
-  swim.anchorage = vehicle.place.anchorage;
-  swim.waters = vehicle.place.waters;
-  swim.waters.density_kg_m3 = vehicle.craft.layout.density_kg_m3;
-  return swim;
-}
-
-std::string full_name(const thrusters::CraftEffect& effect) {
-  return effect.of.empty() ? effect.name : effect.name + " of " + effect.of;
-}
-
-std::string truth_text(const LayoutVehicleCase& vehicle, std::uint64_t seed, const LayoutErrors& errors) {
-  const auto& [anchorage, waters, begin_ns] = vehicle.place;
+std::string vehicle_truth(const LayoutVehicle& vehicle, const LayoutTrial& trial) {
   const thrusters::Nature& nature = vehicle.craft.nature;
-  const ordered_json truth{{"vehicle", vehicle.number},
-                           {"seed", seed},
+  const ordered_json truth{{"number", vehicle.number},
                            {"layout", vehicle.layout.name},
-                           {"layout_error", errors.layout},
-                           {"unmodelled", errors.unmodelled},
+                           {"layout_error", trial.layout_error},
+                           {"unmodelled", trial.unmodelled},
                            {"day_tolerance", kDayTolerance},
-                           {"place",
-                            {{"latitude_deg", anchorage.latitude_deg},
-                             {"longitude_deg", anchorage.longitude_deg},
-                             {"begin_ns", begin_ns},
-                             {"field_uT", numbers_of(waters.field_uT)},
-                             {"water_C", waters.surface_C}}},
                            {"real", json_of(vehicle.craft.real, vehicle.craft.layout)},
                            {"nature",
                             {{"resistance", nature.resistance},
@@ -247,14 +131,175 @@ std::string truth_text(const LayoutVehicleCase& vehicle, std::uint64_t seed, con
   return truth.dump();
 }
 
-std::string truth_text(const LayoutCase& drawn, std::uint64_t seed) {
-  ordered_json effects = ordered_json::array();
-  for (const thrusters::CraftEffect& effect : drawn.effects)
-    effects.push_back(json_of(effect, drawn.craft.layout));
-  const ordered_json truth{{"case", drawn.number},       {"seed", seed},
-                           {"vehicle", drawn.vehicle},   {"arm", name_of(drawn.arm)},
-                           {"excluded", drawn.excluded}, {"effects", effects}};
-  return truth.dump();
+/// Seeds of missions by what they belong to: vehicle and day of nominal ones, case and letter of others.
+std::uint64_t mission_seed(std::uint64_t seed, std::uint64_t series, int number, int part) {
+  reference::Rng dice(seed, kMissionStream + (series << 32U) + (static_cast<std::uint64_t>(number) << 8U) +
+                                static_cast<std::uint64_t>(part));
+  return dice.bits();
+}
+
+/// A mission of this vehicle, drawn by its seed. `day` counts from that of the place.
+LayoutRecording recording_of(const LayoutVehicle& vehicle, thrusters::CraftUnderTest craft,
+                             std::uint64_t mission_seed, double minutes, int day) {
+  reference::Rng dice(mission_seed, kSwimStream);
+  thrusters::Swim swim;
+  swim.start_ns = vehicle.place.begin_ns + day * kDay_ns;
+  swim.duration_s = 60 * minutes;
+  swim.legs = thrusters::drawn_legs(vehicle.craft.layout, swim.duration_s, dice);
+  swim.start.position_m.z() = swim.legs.front().depth_m;
+  swim.start.world_from_body = reference::attitude(0, 0, dice.uniform(0, 2 * std::numbers::pi));
+  swim.anchorage = vehicle.place.anchorage;
+  swim.waters = vehicle.place.waters;
+  return {std::move(swim), std::move(craft), mission_seed};
+}
+
+template <class Recordings>
+bool can_swim(const Recordings& recordings) {
+  return std::none_of(recordings.begin(), recordings.end(),
+                      [](const LayoutRecording& recording) { return capture_of(recording).empty(); });
+}
+
+TrialCase swimming_case(const LayoutTrial& trial, int number,
+                        const std::shared_ptr<const LayoutVehicle>& vehicle) {
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    TrialCase drawn = drawn_layout_case(trial, number, vehicle, attempt);
+    if (can_swim(drawn.on_layout->recordings)) return drawn;
+  }
+  throw base::Failure(
+      base::Exit::failed,
+      fmt::format("case {}: {} draws of its effects, and the vehicle was lost with each", number, kMostAttempts));
+}
+
+/// The numbers of a value in TOML, a number or a list of them, on one line.
+std::vector<double> numbers_in(std::string_view value) {
+  value = value.substr(0, value.find('#'));
+  std::vector<double> numbers;
+  for (std::size_t at = 0; (at = value.find_first_of("-.0123456789", at)) != std::string_view::npos;) {
+    double number = 0;
+    const char* const end = std::from_chars(value.data() + at, value.data() + value.size(), number).ptr;
+    at = std::max(static_cast<std::size_t>(end - value.data()), at + 1);
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+LayoutVehicle drawn_vehicle(const LayoutTrial& trial, int number) {
+  LayoutVehicle vehicle;
+  vehicle.number = number;
+  vehicle.layout = trial.layouts[static_cast<std::size_t>(number - 1) % trial.layouts.size()];
+  vehicle.layout_error = trial.layout_error;
+  thrusters::CraftUnderTest& craft = vehicle.craft;
+  try {
+    craft.layout = thrusters::plan_of(vehicle.layout.text);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(vehicle.layout.name + ": " + error.what());
+  }
+  if (craft.layout.thrusters.size() > thrusters::kOutputChannels)
+    throw std::invalid_argument(vehicle.layout.name + ": more than eight thrusters cannot be reported");
+  reference::Rng dice(trial.seed, kVehicleStream + static_cast<std::uint64_t>(number));
+  craft.real = thrusters::perturbed(craft.layout, trial.layout_error, dice);
+  craft.nature.resistance = dice.uniform(0.2, 0.4);
+  craft.nature.overshoot = trial.unmodelled * dice.uniform(0.05, 0.2);
+  craft.nature.jet_loss = std::min(trial.unmodelled * dice.uniform(0, 0.04), 1.0);
+  craft.nature.strips = std::min(trial.unmodelled * dice.uniform(0, 0.1), 1.0);
+  craft.nature.current_m_s *= trial.unmodelled;
+  craft.nature.wave_m *= trial.unmodelled;
+  craft.doppler = {dice.normal(0.003), dice.normal(1e-4)};
+  reference::apply_tolerance(kInstrumentTolerance, craft.differences.instruments, dice);
+  constexpr double kGreatestClockError = 0.01;
+  craft.compass_clock = dice.uniform(-kGreatestClockError, kGreatestClockError);
+  craft.card_clock = dice.uniform(-kGreatestClockError, kGreatestClockError);
+  vehicle.place = drawn_place(trial.seed, number);
+  // It is trimmed where it swims.
+  vehicle.place.waters.density_kg_m3 = craft.layout.density_kg_m3;
+  for (int day = 1; day <= trial.nominal; ++day) {
+    reference::Rng dice_of_day(
+        trial.seed, kDayStream + (static_cast<std::uint64_t>(number) << 20U) + static_cast<std::uint64_t>(day));
+    thrusters::CraftUnderTest that_day = craft;
+    that_day.real = thrusters::perturbed(craft.real, kDayTolerance, dice_of_day);
+    vehicle.nominals.push_back(
+        recording_of(vehicle, that_day, mission_seed(trial.seed, 0, number, day), trial.minutes, day));
+  }
+  vehicle.truth = vehicle_truth(vehicle, trial);
+  return vehicle;
+}
+
+TrialCase drawn_layout_case(const LayoutTrial& trial, int number,
+                            const std::shared_ptr<const LayoutVehicle>& vehicle, int attempt) {
+  reference::Rng dice(
+      trial.seed, kCaseStream + (static_cast<std::uint64_t>(number) << 8U) + static_cast<std::uint64_t>(attempt));
+  TrialCase drawn;
+  drawn.number = number;
+  drawn.arm = arm_of_case(number, layout_round());
+  drawn.minutes = trial.minutes;
+  drawn.place_number = vehicle->number;
+  drawn.place = vehicle->place;
+  thrusters::CraftUnderTest craft = vehicle->craft;
+  craft.real = thrusters::perturbed(craft.real, kDayTolerance, dice);
+  for (const auto& effect : drawn_effects(trial.seed, number, attempt, craft.layout, dice)) {
+    thrusters::add(effect, craft.layout, craft.differences);
+    drawn.effects.push_back(trial_effect(effect, craft.layout));
+  }
+  if (drawn.arm == TrialArm::removed) drawn.excluded = drawn.effects.front().name;
+  auto on_layout = std::make_shared<LayoutCase>();
+  on_layout->vehicle = vehicle;
+  for (std::size_t i = 0; i < drawn.mission_seeds.size(); ++i) {
+    drawn.mission_seeds[i] = mission_seed(trial.seed, 1, number, static_cast<int>(i));
+    on_layout->recordings[i] =
+        recording_of(*vehicle, craft, drawn.mission_seeds[i], trial.minutes, trial.nominal + number);
+  }
+  drawn.on_layout = std::move(on_layout);
+  return drawn;
+}
+
+std::vector<TrialCase> drawn_layout_cases(const LayoutTrial& trial, const std::vector<int>& numbers,
+                                          const std::function<void(double)>& progress) {
+  std::map<int, std::shared_ptr<const LayoutVehicle>> vehicles;
+  std::vector<TrialCase> cases;
+  for (const int number : numbers) {
+    auto& vehicle = vehicles[(number - 1) % trial.vehicles + 1];
+    if (vehicle == nullptr) {
+      vehicle = std::make_shared<LayoutVehicle>(drawn_vehicle(trial, (number - 1) % trial.vehicles + 1));
+      if (!can_swim(vehicle->nominals))
+        throw base::Failure(base::Exit::failed,
+                            vehicle->layout.name + ": the vehicle cannot swim: lost on a nominal mission");
+    }
+    cases.push_back(swimming_case(trial, number, vehicle));
+    progress(static_cast<double>(cases.size()) / static_cast<double>(numbers.size()));
+  }
+  return cases;
+}
+
+std::string data_sheet(const LayoutVehicle& vehicle) {
+  const double error = vehicle.layout_error;
+  const std::map<std::string_view, double> shares{
+      {"mass_kg", error / 4},   {"inertia_kg_m2", error},   {"matrix", 2 * error}, {"linear", 2 * error},
+      {"quadratic", 2 * error}, {"coefficient", 2 * error}, {"lag_s", 2 * error}};
+  const double arm_m = (vehicle.craft.layout.gravity_centre_m - vehicle.craft.layout.buoyancy_centre_m).norm();
+  std::string sheet;
+  for (std::string_view rest = vehicle.layout.text; !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    const std::size_t equals = std::min(line.find('='), line.size());
+    const std::string_view key =
+        line.substr(0, std::min(line.find_last_not_of(" \t", equals == 0 ? 0 : equals - 1) + 1, equals));
+    if (key.ends_with("_std") || key.ends_with("_range")) continue;
+    sheet.append(line).append("\n");
+    if (const auto share = shares.find(key); share != shares.end() && equals < line.size()) {
+      std::vector<double> errors = numbers_in(line.substr(equals + 1));
+      for (double& number : errors) number = std::abs(number) * share->second;
+      const bool is_list = line.find('[', equals) < line.size();
+      sheet +=
+          is_list ? fmt::format("{}_std = {}\n", key, errors) : fmt::format("{}_std = {}\n", key, errors.at(0));
+    } else if (key == "gravity_centre_m") {
+      sheet += fmt::format("{0}_std = [{1}, {1}, {1}]\n", key, arm_m * error);
+    } else if (line.starts_with("[[thruster]]")) {
+      sheet += fmt::format("force_scale = 1\nforce_scale_std = {}\n", error);
+    }
+  }
+  return sheet;
 }
 
 }  // namespace navcal::validation

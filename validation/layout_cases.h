@@ -1,88 +1,74 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "validation/missions.h"
+#include "validation/cases.h"
 #include "validation/reference/thrusters/swim.h"
 
 namespace navcal::validation {
-
-/// Kinds of cases in a validation on layouts.
-enum class LayoutArm : std::uint8_t {
-  nulls,        ///< no effect
-  single_half,  ///< one effect at half its typical strength, and so on
-  single,
-  single_double,
-  pairs,    ///< two effects
-  removed,  ///< one effect that the library is to be without
-  foreign,  ///< one effect that no library holds
-};
-inline constexpr int kLayoutArms = 7;
-[[nodiscard]] std::string_view name_of(LayoutArm arm);
-/// "nulls" and so on; throws std::invalid_argument, which lists them.
-[[nodiscard]] LayoutArm layout_arm_named(std::string_view name);
 
 /// A shipped layout, or one of the user's: `name` for people, and the file's text.
 struct NamedLayout {
   std::string name, text;
 };
 
+/// A trial of vehicles with thrusters: the same numbers give the same vehicles and cases on every machine.
+struct LayoutTrial {
+  std::vector<NamedLayout> layouts;  ///< vehicles take them by turns, and cases the vehicles
+  std::uint64_t seed = 1;
+  int vehicles = 3, nominal = 3;  ///< `nominal`: recordings without an effect, of each vehicle
+  double minutes = 3;             ///< of a recording
+  double layout_error = 0.05;     ///< of the layouts: reference::thrusters::perturbed
+  double unmodelled = 1;          ///< factor on the spreads of reference::thrusters::Nature
+};
+
+/// A recording that is to be made.
+struct LayoutRecording {
+  reference::thrusters::Swim swim;
+  reference::thrusters::CraftUnderTest craft;  ///< the vehicle on this day
+  std::uint64_t seed = 0;
+};
+
 /// One vehicle: its layout is off by the errors of an identification that is yet to come.
-struct LayoutVehicleCase {
+struct LayoutVehicle {
   int number = 1;  ///< from 1
   NamedLayout layout;
+  double layout_error = 0;
   reference::thrusters::CraftUnderTest craft;
   TrialPlace place;
+  std::vector<LayoutRecording> nominals;  ///< without an effect, each on a day of its own
+  std::string truth;                      ///< what the numbers of the vehicle really are, as JSON
 };
 
-struct LayoutErrors {
-  double layout = 0.05;   ///< reference::thrusters::perturbed
-  double unmodelled = 1;  ///< factor on the spreads of reference::thrusters::Nature
-};
-
-/// The same seed, number, layouts and errors give the same vehicle on every machine. Layouts are taken by turns.
-/// `errors`: how far it is off what its layout states, and off what any layout can state. Throws
-/// std::invalid_argument for a layout that cannot be read or has other actuators than thrusters, or more than
-/// eight of them.
-[[nodiscard]] LayoutVehicleCase drawn_vehicle(std::uint64_t seed, int number, std::span<const NamedLayout> layouts,
-                                              const LayoutErrors& errors);
-
-/// Truth of one case, which a diagnosis must not know before it has answered.
+/// Part of a case: whose it is, and its recordings (to be diagnosed, and two held out).
 struct LayoutCase {
-  int number = 1;
-  int vehicle = 1;
-  LayoutArm arm = LayoutArm::nulls;
-  std::vector<reference::thrusters::CraftEffect> effects;
-  std::string excluded;                        ///< effect that the library is to be without
-  reference::thrusters::CraftUnderTest craft;  ///< the vehicle on this day, with the effects
+  std::shared_ptr<const LayoutVehicle> vehicle;
+  std::array<LayoutRecording, 3> recordings;
 };
 
 /// How much a vehicle changes from one day to the next: reference::thrusters::perturbed.
 inline constexpr double kDayTolerance = 0.005;
 
-/// The vehicle without an effect, on a day of its own.
-[[nodiscard]] reference::thrusters::CraftUnderTest nominal_day(std::uint64_t seed,
-                                                               const LayoutVehicleCase& vehicle, int day);
+/// Throws std::invalid_argument for a layout that cannot be read or has other actuators than thrusters, or more
+/// than eight of them.
+[[nodiscard]] LayoutVehicle drawn_vehicle(const LayoutTrial& trial, int number);
 /// The arm follows from the number; effects come by turns, so that each comes once before any comes again.
 /// `attempt`: another draw of the same case, for effects with which the vehicle cannot swim; after six of them the
 /// next effect is drawn.
-[[nodiscard]] LayoutCase drawn_layout_case(std::uint64_t seed, int number, const LayoutVehicleCase& vehicle,
-                                           int attempt);
+[[nodiscard]] TrialCase drawn_layout_case(const LayoutTrial& trial, int number,
+                                          const std::shared_ptr<const LayoutVehicle>& vehicle, int attempt);
+/// Cases with which their vehicles can swim. Throws as drawn_vehicle(), and base::Failure where a vehicle is
+/// always lost, or when interrupted. `progress`: of the share that is done.
+[[nodiscard]] std::vector<TrialCase> drawn_layout_cases(const LayoutTrial& trial, const std::vector<int>& numbers,
+                                                        const std::function<void(double)>& progress);
 
-/// A mission of this vehicle by the dice of a seed. `day` counts from that of the place.
-[[nodiscard]] reference::thrusters::Swim drawn_swim(const LayoutVehicleCase& vehicle, std::uint64_t mission_seed,
-                                                    double duration_s, int day);
-
-/// Lines of JSON with what is true, and what the numbers of the vehicle really are.
-[[nodiscard]] std::string truth_text(const LayoutVehicleCase& vehicle, std::uint64_t seed,
-                                     const LayoutErrors& errors);
-[[nodiscard]] std::string truth_text(const LayoutCase& drawn, std::uint64_t seed);
-/// Name of an effect with what it belongs to: "thrust_scale of thruster.2".
-[[nodiscard]] std::string full_name(const reference::thrusters::CraftEffect& effect);
+/// Text of the vehicle's layout as a data sheet: with standard errors that fit its error (docs/trial.md).
+[[nodiscard]] std::string data_sheet(const LayoutVehicle& vehicle);
 
 }  // namespace navcal::validation

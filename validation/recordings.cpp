@@ -10,6 +10,7 @@
 
 #include "base/failure.h"
 #include "base/interruptible.h"
+#include "config/described/outputs_port.h"
 #include "config/load.h"
 #include "record/whole_file.h"
 #include "validation/missions.h"
@@ -54,6 +55,11 @@ std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::filesystem::path write_vehicle_file(const TrialPlace& place, const std::filesystem::path& folder) {
+  write_file(folder / "vehicle.toml", fmt::format("[water]\ndensity_kg_m3 = {}\n", place.waters.density_kg_m3));
+  return folder / "vehicle.toml";
+}
+
 void write_recording(const reference::Mission& mission, const reference::VehicleUnderTest& vehicle,
                      std::uint64_t seed, const std::filesystem::path& file) {
   CaptureText capture(reference::kFinnedPorts);
@@ -64,13 +70,39 @@ void write_recording(const reference::Mission& mission, const reference::Vehicle
   write_file(file, capture.text);
 }
 
+std::string capture_of(const LayoutRecording& recording) {
+  CaptureText capture(reference::kThrusterPorts);
+  if (reference::thrusters::run(recording.swim, recording.craft, recording.seed, capture)) return {};
+  return std::move(capture.text);
+}
+
+std::vector<std::string> write_vehicle(const LayoutVehicle& vehicle, const std::filesystem::path& folder) {
+  std::string ports = "# The ports of the recordings: navcal replay --config navcald.toml FILE.cap\n";
+  for (const reference::Port port : reference::kThrusterPorts) {
+    const reference::PortFacts& facts = reference::facts_of(port);
+    ports += fmt::format("\n[port.{}]\nprotocol = \"{}\"\nbaud = {}\npath = \"/dev/{}\"\n", facts.name,
+                         facts.protocol, facts.baud, facts.name);
+    if (port == reference::Port::actuators) ports += "device = \"actuator-outputs.toml\"\n";
+  }
+  write_file(folder / "navcald.toml", ports);
+  write_file(folder / "actuator-outputs.toml", config::outputs_description());
+  write_file(folder / "sheet.toml", data_sheet(vehicle));
+  std::vector<std::string> files;
+  for (const LayoutRecording& recording : vehicle.nominals) {
+    files.push_back(folder / fmt::format("nominal-{}.cap", files.size() + 1));
+    write_file(files.back(), capture_of(recording));
+  }
+  return files;
+}
+
 std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
                                                       const std::filesystem::path& folder) {
-  const auto missions = trial_missions(facts_of(drawn.arm).missions, drawn.minutes);
+  const auto missions = trial_missions(facts_of(drawn.arm).missions, static_cast<int>(drawn.minutes));
   std::array<std::filesystem::path, 3> files{folder / "a.cap", folder / "b.cap", folder / "c.cap"};
   std::array<std::future<void>, 3> written;
   for (std::size_t i = 0; i < files.size(); ++i) {
     written[i] = std::async(std::launch::async, [&, i] {
+      if (drawn.on_layout != nullptr) return write_file(files[i], capture_of(drawn.on_layout->recordings[i]));
       write_recording(at_place(missions[i], drawn.place), drawn.vehicle, drawn.mission_seeds[i], files[i]);
     });
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 
 namespace navcal::validation {
@@ -16,20 +17,59 @@ struct Judged {
   TrialJudgement judgement;
 };
 
+/// Target of a score: at least, at most.
+struct TrialTarget {
+  std::optional<double> least{}, most{};
+};
 TrialTarget at_least(double share) { return {share, {}}; }
 TrialTarget at_most(double share) { return {{}, share}; }
 
-using Question = ScoreTable<Judged>::Question;
+/// Which of the cases count, and whether one is a hit; an absent answer does not count.
+using Question = std::function<std::optional<bool>(const Judged&)>;
 
-class Table : public ScoreTable<Judged> {
+/// Adds scores of `all`, cases that were judged.
+class Table {
  public:
-  using ScoreTable::ScoreTable, ScoreTable::share;
+  Table(const std::vector<Judged>& all, std::vector<TrialScore>& scores) : all_(all), scores_(scores) {}
+
+  [[nodiscard]] bool on_layouts() const {
+    return !all_.empty() && all_.front().result->drawn.on_layout != nullptr;
+  }
   void share(const std::string& name, TrialTarget target, Arms arms, const Question& question) {
     share(name, target, [&](const Judged& one) -> std::optional<bool> {
       const auto arm = one.result->drawn.arm;
       return std::find(arms.begin(), arms.end(), arm) == arms.end() ? std::nullopt : question(one);
     });
   }
+  void share(const std::string& name, TrialTarget target, const Question& question) {
+    parts(name, target, [&](const Judged& one) {
+      const auto hit = question(one);
+      return std::array{int{hit.value_or(false)}, int{hit.has_value()}};
+    });
+  }
+  /// Sums of hits and cases, of which each one has several.
+  void parts(const std::string& name, TrialTarget target,
+             const std::function<std::array<int, 2>(const Judged&)>& of) {
+    TrialScore score{name, "%", {}, 0, 0, {}, target.least, target.most};
+    for (const Judged& one : all_) {
+      const auto [hits, cases] = of(one);
+      score.hits += hits;
+      score.cases += cases;
+    }
+    if (score.cases > 0) {
+      score.value = static_cast<double>(score.hits) / score.cases;
+      score.interval = wilson(score.hits, score.cases);
+    }
+    scores_.push_back(std::move(score));
+  }
+  void value(const std::string& name, const std::string& unit, TrialTarget target, std::optional<double> value,
+             std::size_t cases) {
+    scores_.push_back({name, unit, value, 0, static_cast<int>(cases), {}, target.least, target.most});
+  }
+
+ private:
+  const std::vector<Judged>& all_;
+  std::vector<TrialScore>& scores_;
 };
 
 Question is(TrialOutcome outcome) {
@@ -53,8 +93,9 @@ Question exact_of_pairs(bool confounded) {
 
 void score_names(Table& table) {
   const Question exact = is(TrialOutcome::exact), wrong = is(TrialOutcome::wrong);
-  table.share("nulls: flagged", at_most(0.02), {nulls},
-              [](const Judged& one) { return one.result->answer && !one.judgement.right; });
+  table.share("nulls: flagged", at_most(0.02), {nulls}, [](const Judged& one) {
+    return one.result->answer && !one.judgement.right && one.judgement.outcome != TrialOutcome::cannot_say;
+  });
   table.share("nulls: an effect named", {}, {nulls}, wrong);
   table.share("nulls-6: an effect named", {}, {nulls_6}, wrong);
   table.share("single-1: most probable right", at_least(0.98), {single},
@@ -72,11 +113,17 @@ void score_names(Table& table) {
         Strength{single_fifth, 0.8}, Strength{single_tenth, 1.0 / 3}}) {
     const std::string name(facts_of(arm).name);
     table.share(name + ": exact", at_least(least), {arm}, exact);
+    if (table.on_layouts())
+      table.share(name + ": exact, or its class", {}, {arm}, [](const Judged& one) {
+        return one.judgement.outcome == TrialOutcome::exact || one.judgement.outcome == TrialOutcome::in_class;
+      });
     table.share(name + ": wrong name", at_most(0.01), {arm}, wrong);
   }
   table.share("pairs: exact", at_least(0.9), {pairs}, exact);
-  table.share("pairs, any two: exact", {}, {pairs}, exact_of_pairs(false));
-  table.share("pairs, easily confounded: exact", {}, {pairs}, exact_of_pairs(true));
+  if (!table.on_layouts()) {
+    table.share("pairs, any two: exact", {}, {pairs}, exact_of_pairs(false));
+    table.share("pairs, easily confounded: exact", {}, {pairs}, exact_of_pairs(true));
+  }
   table.share("triples: exact", at_least(0.75), {triples}, exact);
   table.share("short: exact", at_least(0.8), {brief}, exact);
   table.share("removed: unknown, or its class", at_least(0.85), {removed}, is_right);
@@ -125,7 +172,9 @@ void score_numbers(const std::vector<Judged>& all, const TrialScores& scores, Ta
   table.value("probabilities: calibration error", "", at_most(0.03),
               bets > 0 ? std::optional(calibration_error(scores.calibration)) : std::nullopt,
               static_cast<std::size_t>(bets));
-  table.closures(scores.closures);
+  table.value("closure: median", "%", at_least(0.98), quantile(scores.closures, 0.5), scores.closures.size());
+  table.value("closure: 10th percentile", "%", at_least(0.95), quantile(scores.closures, 0.1),
+              scores.closures.size());
   table.share("closure: the interval holds the truth", {0.9, 0.98},
               [](const Judged& one) { return one.judgement.covered; });
   table.share("strongest channel right", at_least(0.95),
@@ -193,6 +242,7 @@ TrialScores trial_scores(std::span<const TrialResult> results) {
   Table table(all, scores.scores);
   score_names(table);
   score_numbers(all, scores, table);
+  if (table.on_layouts()) std::erase_if(scores.scores, [](const TrialScore& score) { return score.cases == 0; });
   return scores;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,55 +31,6 @@ struct TrialScore {
   [[nodiscard]] std::optional<bool> met() const;
 };
 
-/// Target of a score: at least, at most.
-struct TrialTarget {
-  std::optional<double> least{}, most{};
-};
-
-/// Adds scores of `all`, cases that were judged.
-template <class Judged>
-class ScoreTable {
- public:
-  /// Which of them count, and whether one is a hit; an absent answer does not count.
-  using Question = std::function<std::optional<bool>(const Judged&)>;
-
-  ScoreTable(const std::vector<Judged>& all, std::vector<TrialScore>& scores) : all_(all), scores_(scores) {}
-
-  void share(const std::string& name, TrialTarget target, const Question& question) {
-    parts(name, target, [&](const Judged& one) {
-      const auto hit = question(one);
-      return std::array{int{hit.value_or(false)}, int{hit.has_value()}};
-    });
-  }
-  /// Sums of hits and cases, of which each one has several.
-  void parts(const std::string& name, TrialTarget target,
-             const std::function<std::array<int, 2>(const Judged&)>& of) {
-    TrialScore score{name, "%", {}, 0, 0, {}, target.least, target.most};
-    for (const Judged& one : all_) {
-      const auto [hits, cases] = of(one);
-      score.hits += hits;
-      score.cases += cases;
-    }
-    if (score.cases > 0) {
-      score.value = static_cast<double>(score.hits) / score.cases;
-      score.interval = wilson(score.hits, score.cases);
-    }
-    scores_.push_back(std::move(score));
-  }
-  void value(const std::string& name, const std::string& unit, TrialTarget target, std::optional<double> value,
-             std::size_t cases) {
-    scores_.push_back({name, unit, value, 0, static_cast<int>(cases), {}, target.least, target.most});
-  }
-  void closures(const std::vector<double>& closures) {
-    value("closure: median", "%", {0.98, {}}, quantile(closures, 0.5), closures.size());
-    value("closure: 10th percentile", "%", {0.95, {}}, quantile(closures, 0.1), closures.size());
-  }
-
- private:
-  const std::vector<Judged>& all_;
-  std::vector<TrialScore>& scores_;
-};
-
 /// Share that was named exactly, by strength.
 struct TrialPower {
   double strength = 0;
@@ -107,7 +57,8 @@ struct TrialScores {
 /// Expected calibration error: mean distance of both in a bin, weighted by its bets.
 [[nodiscard]] double calibration_error(std::span<const TrialCalibrationBin> bins);
 
-/// Scores of all that was answered, each with the target that was set before any trial was run.
+/// Scores of all that was answered, each with the target that was set before any trial was run. Of layouts those
+/// that no case counts for are left out.
 [[nodiscard]] TrialScores trial_scores(std::span<const TrialResult> results);
 
 }  // namespace navcal::validation

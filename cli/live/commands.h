@@ -63,7 +63,6 @@ void add_log_control(CLI::App& app);
 // Called by the command that they are part of:
 void add_gap_next(CLI::App& gap);
 void add_gap_watch(CLI::App& gap);
-void add_gap_layouts(CLI::App& gap);
 void add_gap_trial(CLI::App& gap);
 void add_fleet_submit(CLI::App& fleet);
 /// `fleet trial record` and `fleet trial score`.

@@ -77,8 +77,6 @@ TEST(Commands, OldNamesOfTheResearchCommandsStay) {
   const CLI::App& research = *app.get_subcommand("research");
   EXPECT_EQ(options_of(*app.get_subcommand("gap")->get_subcommand("trial")),
             options_of(*research.get_subcommand("gap-trial")));
-  EXPECT_EQ(options_of(*app.get_subcommand("gap")->get_subcommand("layouts")),
-            options_of(*research.get_subcommand("gap-layouts")));
   EXPECT_EQ(options_of(*app.get_subcommand("fleet")->get_subcommand("trial")),
             options_of(*research.get_subcommand("fleet-trial")));
   for (const char* const name : {"thesis", "validate-runs"})

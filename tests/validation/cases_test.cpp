@@ -33,6 +33,15 @@ TEST(GapTrialArms, ARoundIsAThirdNullsAndSeventeenRoundsGiveEachTargetItsCases) 
     EXPECT_EQ(cases[arm], 17) << validation::facts_of(arm).name;
 }
 
+TEST(GapTrialArms, OfLayoutsAreThoseOfTheirRound) {
+  EXPECT_EQ(validation::trial_arms_named({}, validation::layout_round()).size(), 7U);
+  EXPECT_EQ(validation::trial_arms_named({"singles"}, validation::layout_round()).size(), 3U);
+  EXPECT_THROW((void)validation::trial_arms_named({"triples"}, validation::layout_round()), std::invalid_argument);
+  EXPECT_EQ(validation::case_numbers({validation::TrialArm::pairs}, 2, validation::layout_round()),
+            (std::vector{10, 26}));
+  EXPECT_EQ(validation::ordinal_in_arm(26, validation::layout_round()), 1);
+}
+
 TEST(GapTrialArms, FactsStandAtTheirArm) {
   for (const validation::TrialArmFacts& facts : validation::trial_arms())
     EXPECT_EQ(validation::facts_of(facts.arm).name, facts.name);
@@ -99,7 +108,7 @@ TEST(GapTrialCases, EachArmHasWhatItIsFor) {
   for (int number = 1; number <= 4 * validation::kCasesPerRound; ++number) {
     const validation::TrialCase drawn = validation::drawn_case(11, number, 10);
     std::set<std::string> names;
-    for (const reference::Effect& effect : drawn.effects) names.insert(effect.name);
+    for (const validation::TrialEffect& effect : drawn.effects) names.insert(effect.name);
     const std::size_t wanted =
         drawn.arm == validation::TrialArm::nulls || drawn.arm == validation::TrialArm::nulls_6 ? 0
         : drawn.arm == validation::TrialArm::pairs                                             ? 2
@@ -125,12 +134,11 @@ TEST(GapTrialCases, EverySecondPairIsEasilyConfounded) {
 TEST(GapTrialCases, TheTruthHoldsTheToleranceToo) {
   for (const int number : validation::case_numbers({validation::TrialArm::single}, 34)) {
     const validation::TrialCase drawn = validation::drawn_case(2, number, 10);
-    const reference::Effect& effect = drawn.effects.at(0);
+    const validation::TrialEffect& effect = drawn.effects.at(0);
     const reference::EffectKind& kind = *reference::find_effect(effect.name);
-    const reference::Effect real = validation::true_parameters(effect, drawn.vehicle);
     bool moved = false;
     for (const std::string_view key : kind.parameters) {
-      const double off = real.parameters.find(key)->second - effect.parameters.find(key)->second;
+      const double off = effect.real.find(key)->second - effect.drawn.find(key)->second;
       EXPECT_LT(std::abs(off), 5 * 0.02 * kind.size.typical) << effect.name << ' ' << key;
       moved |= std::abs(off) > 1e-6 * kind.size.typical;
     }

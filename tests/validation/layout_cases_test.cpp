@@ -5,11 +5,12 @@
 
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
-#include "validation/layout_recordings.h"
+#include "validation/recordings.h"
 
 namespace navcal::validation::testing {
 namespace {
@@ -19,37 +20,56 @@ NamedLayout shipped_layout(const std::string& name) {
   return {name + ".toml", {std::istreambuf_iterator<char>(file), {}}};
 }
 
-const std::vector<NamedLayout>& shipped_layouts() {
-  static const std::vector<NamedLayout> kLayouts{shipped_layout("bluerov2-heavy"), shipped_layout("micro-auv")};
-  return kLayouts;
+LayoutTrial shipped_layouts(std::uint64_t seed) {
+  return {.layouts = {shipped_layout("bluerov2-heavy"), shipped_layout("micro-auv")},
+          .seed = seed,
+          .nominal = 1,
+          .minutes = 0.75};
+}
+
+TrialCase case_of(const LayoutTrial& trial, int number) {
+  return drawn_layout_case(trial, number, std::make_shared<LayoutVehicle>(drawn_vehicle(trial, 1)), 0);
 }
 
 TEST(LayoutCases, AreTheSameForTheSameSeed) {
-  const LayoutVehicleCase one = drawn_vehicle(3, 1, shipped_layouts(), {});
-  const LayoutVehicleCase again = drawn_vehicle(3, 1, shipped_layouts(), {});
-  EXPECT_EQ(truth_text(one, 3, {}), truth_text(again, 3, {}));
-  EXPECT_NE(truth_text(one, 3, {}), truth_text(drawn_vehicle(4, 1, shipped_layouts(), {}), 3, {}));
-  EXPECT_EQ(drawn_vehicle(3, 2, shipped_layouts(), {}).layout.name, "micro-auv.toml");
-  EXPECT_EQ(drawn_vehicle(3, 3, shipped_layouts(), {}).layout.name, "bluerov2-heavy.toml");
-  EXPECT_EQ(truth_text(drawn_layout_case(3, 2, one, 0), 3), truth_text(drawn_layout_case(3, 2, one, 0), 3));
+  EXPECT_EQ(drawn_vehicle(shipped_layouts(3), 1).truth, drawn_vehicle(shipped_layouts(3), 1).truth);
+  EXPECT_NE(drawn_vehicle(shipped_layouts(3), 1).truth, drawn_vehicle(shipped_layouts(4), 1).truth);
+  EXPECT_EQ(drawn_vehicle(shipped_layouts(3), 2).layout.name, "micro-auv.toml");
+  EXPECT_EQ(drawn_vehicle(shipped_layouts(3), 3).layout.name, "bluerov2-heavy.toml");
+  EXPECT_EQ(truth_text(case_of(shipped_layouts(3), 2), 3), truth_text(case_of(shipped_layouts(3), 2), 3));
+}
+
+// As they were drawn for the figures of docs/validation/layout-diagnosis.md.
+TEST(LayoutCases, OfTheSeedOfThePublishedFiguresAreWhatTheyWere) {
+  LayoutTrial trial{.layouts = {shipped_layout("micro-auv"), shipped_layout("bluerov2-heavy")},
+                    .seed = 9113,
+                    .vehicles = 2,
+                    .nominal = 2,
+                    .minutes = 1};
+  const auto cases = drawn_layout_cases(trial, {2, 7, 12}, [](double) {});
+  EXPECT_EQ(cases.at(0).effects.at(0).full_name(), "actuator_reversed of thruster.3");
+  EXPECT_EQ(cases.at(0).effects.at(0).of_name, "rear_starboard");
+  EXPECT_DOUBLE_EQ(cases.at(1).effects.at(0).real.at("x_m"), -0.00015442152781053442);
+  EXPECT_DOUBLE_EQ(cases.at(2).effects.at(0).real.at("mass_kg"), -0.54);
 }
 
 TEST(LayoutCases, ArmsAndEffectsComeByTurns) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(5, 1, shipped_layouts(), {});
+  const LayoutTrial trial = shipped_layouts(5);
+  const auto vehicle = std::make_shared<LayoutVehicle>(drawn_vehicle(trial, 1));
   int nulls = 0;
   std::set<std::string> singles, foreign;
   for (int number = 1; number <= 320; ++number) {
-    const LayoutCase drawn = drawn_layout_case(5, number, vehicle, 0);
-    nulls += drawn.arm == LayoutArm::nulls ? 1 : 0;
-    EXPECT_EQ(drawn.effects.empty(), drawn.arm == LayoutArm::nulls);
-    EXPECT_EQ(drawn.excluded.empty(), drawn.arm != LayoutArm::removed);
-    EXPECT_EQ(drawn.effects.size() == 2, drawn.arm == LayoutArm::pairs);
+    const TrialCase drawn = drawn_layout_case(trial, number, vehicle, 0);
+    nulls += drawn.arm == TrialArm::nulls ? 1 : 0;
+    EXPECT_EQ(drawn.effects.empty(), drawn.arm == TrialArm::nulls);
+    EXPECT_EQ(drawn.excluded.empty(), drawn.arm != TrialArm::removed);
+    EXPECT_EQ(drawn.effects.size() == 2, drawn.arm == TrialArm::pairs);
     for (const auto& effect : drawn.effects) {
       const auto* const kind = reference::thrusters::find_craft_effect(effect.name);
       ASSERT_NE(kind, nullptr) << effect.name;
-      EXPECT_EQ(kind->in_library, drawn.arm != LayoutArm::foreign) << effect.name;
-      if (drawn.arm == LayoutArm::single) singles.insert(effect.name);
-      if (drawn.arm == LayoutArm::foreign) foreign.insert(effect.name);
+      EXPECT_EQ(kind->in_library, drawn.arm != TrialArm::foreign) << effect.name;
+      if (drawn.arm == TrialArm::single) singles.insert(effect.name);
+      if (drawn.arm == TrialArm::foreign) foreign.insert(effect.name);
     }
   }
   EXPECT_EQ(nulls, 100);
@@ -58,38 +78,52 @@ TEST(LayoutCases, ArmsAndEffectsComeByTurns) {
 }
 
 TEST(LayoutCases, TruthNamesTheThrusterAndWhatTheVehicleIs) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(3, 1, shipped_layouts(), {.layout = 0.1});
-  const auto truth = nlohmann::json::parse(truth_text(vehicle, 3, {}));
-  EXPECT_NE(truth.at("real").at("mass_kg").get<double>(), 13.5);
-  EXPECT_NEAR(truth.at("real").at("mass_kg").get<double>(), 13.5, 1.4);
-  EXPECT_EQ(truth.at("real").at("thrusters").size(), 8U);
-  LayoutCase drawn = drawn_layout_case(3, 1, vehicle, 0);
-  drawn.effects = {{"actuator_dead", "thruster.3", {}}};
-  const auto effect = nlohmann::json::parse(truth_text(drawn, 3)).at("effects").at(0);
-  EXPECT_EQ(effect.at("of"), "thruster.3");
-  EXPECT_EQ(effect.at("of_name"), "rear_starboard");
+  LayoutTrial trial = shipped_layouts(3);
+  trial.layout_error = 0.1;
+  TrialCase drawn = case_of(trial, 1);
+  drawn.effects = {{"actuator_dead", {}, {}, "thruster.3", "rear_starboard"}};
+  const auto truth = nlohmann::json::parse(truth_text(drawn, 3));
+  const auto& real = truth.at("vehicle").at("real");
+  EXPECT_NE(real.at("mass_kg").get<double>(), 13.5);
+  EXPECT_NEAR(real.at("mass_kg").get<double>(), 13.5, 1.4);
+  EXPECT_EQ(real.at("thrusters").size(), 8U);
+  EXPECT_EQ(truth.at("drawn").at(0).at("of"), "thruster.3");
+  EXPECT_EQ(truth.at("drawn").at(0).at("of_name"), "rear_starboard");
 }
 
 TEST(LayoutCases, WithoutErrorTheVehicleIsItsLayout) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(3, 1, shipped_layouts(), {.layout = 0});
+  LayoutTrial trial = shipped_layouts(3);
+  trial.layout_error = 0;
+  const LayoutVehicle vehicle = drawn_vehicle(trial, 1);
   EXPECT_DOUBLE_EQ(vehicle.craft.real.mass_kg, vehicle.craft.layout.mass_kg);
   EXPECT_DOUBLE_EQ(vehicle.craft.real.thrusters[0].lag_s, vehicle.craft.layout.thrusters[0].lag_s);
 }
 
+TEST(LayoutCases, ADataSheetHasTheErrorsOfItsNumbers) {
+  LayoutVehicle vehicle;
+  vehicle.layout_error = 0.04;
+  vehicle.craft.layout.gravity_centre_m = {0, 0, 0.005};
+  vehicle.layout.text =
+      "[body]\nmass_kg = 2  # a kg more\nmass_kg_std = 1\ngravity_centre_m = [0, 0, 0.005]\n"
+      "linear = [0.5, -1, 0]\ncoefficient_range = [0.6, 1.5]\n[[thruster]]\nlag_s = 0.1";
+  EXPECT_EQ(data_sheet(vehicle),
+            "[body]\nmass_kg = 2  # a kg more\nmass_kg_std = 0.02\ngravity_centre_m = [0, 0, 0.005]\n"
+            "gravity_centre_m_std = [0.0002, 0.0002, 0.0002]\nlinear = [0.5, -1, 0]\n"
+            "linear_std = [0.04, 0.08, 0]\n[[thruster]]\nforce_scale = 1\nforce_scale_std = 0.04\nlag_s = 0.1\n"
+            "lag_s_std = 0.008\n");
+}
+
 TEST(LayoutCases, LayoutsThatCannotBeFlownAreRefusedByName) {
-  const std::vector<NamedLayout> wrong{shipped_layout("remus-100")};
   try {
-    (void)drawn_vehicle(1, 1, wrong, {});
+    (void)drawn_vehicle({.layouts = {shipped_layout("remus-100")}}, 1);
     FAIL() << "it has surfaces";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("remus-100.toml"), std::string::npos) << error.what();
   }
-  EXPECT_THROW((void)layout_arm_named("none"), std::invalid_argument);
 }
 
 TEST(LayoutRecordings, ACaptureHasAllPorts) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(3, 2, shipped_layouts(), {});
-  const std::string text = capture_of(drawn_swim(vehicle, 9, 45, 1), nominal_day(3, vehicle, 1), 9);
+  const std::string text = capture_of(drawn_vehicle(shipped_layouts(3), 2).nominals.at(0));
   for (const char* const port : {"#port compass tcm2", "#port imu imu-card", "#port gps oncore",
                                  "#port doppler waterlinked", "#port actuators described"})
     EXPECT_NE(text.find(port), std::string::npos) << port;

@@ -16,8 +16,9 @@ inline validation::TrialCase made_up_case(validation::TrialArm arm, const std::v
   made_up.arm = arm;
   for (const std::string& name : effects) {
     const reference::EffectKind& kind = *reference::find_effect(name);
-    made_up.effects.push_back({name, {{std::string(kind.parameters.front()), kind.size.typical}}});
-    reference::add(made_up.effects.back(), made_up.vehicle.deviations);
+    validation::TrialEffect& effect = made_up.effects.emplace_back(validation::TrialEffect{name});
+    for (const std::string_view key : kind.parameters) effect.real.emplace(key, 0);
+    effect.real[std::string(kind.parameters.front())] = kind.size.typical;
   }
   if (arm == validation::TrialArm::removed) made_up.excluded = effects.front();
   return made_up;

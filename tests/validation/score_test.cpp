@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <tuple>
 
 #include "tests/validation/made_up_answers.h"
 #include "validation/confusion.h"
+#include "validation/layout_cases.h"
 
 namespace navcal::cli {
 namespace {
@@ -133,7 +135,7 @@ TEST(GapTrialScore, PoorMissionsWantNoWrongNameAndTheTruthAmongTheTwins) {
 
 TEST(GapTrialScore, ParametersAreHeldAgainstTheTruthWithItsTolerance) {
   validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"motor_field"});
-  reference::add({"motor_field", {{"y_uT_per_A", 0.03}}}, drawn.vehicle.deviations);  // the tolerance
+  drawn.effects[0].real["y_uT_per_A"] = 0.03;  // the tolerance
   validation::TrialAnswer answer = named({"motor_field"});
   answer.effects[0].parameters = {
       {"x_uT_per_A", {1.19, 0.1}}, {"y_uT_per_A", {0.0, 0.01}}, {"z_uT_per_A", {0.0, std::nullopt}}};
@@ -239,6 +241,87 @@ TEST(GapTrialConfusion, ACaseCountsForEachEffectThatIsThere) {
   EXPECT_EQ(confusion.count("no effect", "no gap"), 1);
   EXPECT_EQ(confusion.count("foreign to the library", "unknown"), 1);
   EXPECT_EQ(confusion.count("hard_iron", "no gap"), 0);
+}
+
+/// A case of a vehicle with thrusters.
+validation::TrialCase case_of_layout(validation::TrialArm arm, std::vector<validation::TrialEffect> effects,
+                                     std::string excluded = "") {
+  validation::TrialCase drawn;
+  drawn.arm = arm;
+  drawn.effects = std::move(effects);
+  drawn.excluded = std::move(excluded);
+  drawn.on_layout = std::make_shared<validation::LayoutCase>();
+  return drawn;
+}
+
+validation::TrialOutcome outcome_of(const validation::TrialCase& drawn, const validation::TrialAnswer& answer) {
+  return validation::judged(answered(drawn, answer)).outcome;
+}
+
+const validation::TrialEffect kWeak{"thrust_scale", {}, {{"scale", -0.2}}, "thruster.2", "front_port"};
+const validation::TrialEffect kHeavy{"weight", {}, {{"mass_kg", 0.2}}};
+
+TEST(GapTrialScore, OutcomesOfLayoutsAreByNameAndPlace) {
+  const validation::TrialCase weak = case_of_layout(validation::TrialArm::single, {kWeak});
+  using enum validation::TrialOutcome;
+  EXPECT_EQ(outcome_of(weak, named({"thrust_scale of thruster.2"})), exact);
+  EXPECT_EQ(outcome_of(weak, named({"thrust_scale of front_port"})), exact);
+  EXPECT_EQ(outcome_of(weak, named({"thrust_scale of thruster.1"})), wrong);
+  EXPECT_EQ(outcome_of(weak, named({"thrust_scale"})), wrong);
+  EXPECT_EQ(outcome_of(weak, named({"thruster_offset of thruster.2"})), in_class);
+  EXPECT_EQ(outcome_of(weak, named({"hard_iron"})), wrong);
+  validation::TrialAnswer confused = named({"hard_iron"});
+  confused.twins = {"thrust_scale of thruster.2"};
+  EXPECT_EQ(outcome_of(weak, confused), in_class);
+  EXPECT_EQ(outcome_of(weak, named({"thrust_scale of thruster.2", "hard_iron"})), wrong);
+  EXPECT_EQ(outcome_of(weak, verdict(validation::TrialVerdict::unknown)), unknown);
+  EXPECT_EQ(outcome_of(weak, verdict(validation::TrialVerdict::no_gap)), no_gap);
+  EXPECT_EQ(outcome_of(weak, verdict(validation::TrialVerdict::cannot_say)), cannot_say);
+  validation::TrialResult crashed;
+  crashed.drawn = weak;
+  EXPECT_EQ(validation::judged(crashed).outcome, failed);
+}
+
+TEST(GapTrialScore, OfTwoEffectsOfALayoutOneIsAPart) {
+  const validation::TrialCase both = case_of_layout(validation::TrialArm::pairs, {kWeak, kHeavy});
+  using enum validation::TrialOutcome;
+  EXPECT_EQ(outcome_of(both, named({"weight"})), part);
+  EXPECT_EQ(outcome_of(both, named({"weight", "thrust_scale of thruster.2"})), exact);
+  EXPECT_EQ(outcome_of(both, named({"buoyancy", "thrust_scale of thruster.2"})), in_class);
+}
+
+TEST(GapTrialScore, WhatIsNotInTheLibraryOfALayoutCannotBeExact) {
+  using enum validation::TrialOutcome;
+  const validation::TrialCase removed = case_of_layout(validation::TrialArm::removed, {kHeavy}, "weight");
+  EXPECT_EQ(outcome_of(removed, named({"buoyancy"})), in_class);
+  EXPECT_EQ(outcome_of(removed, named({"compass_lag"})), wrong);
+  const auto foreign = case_of_layout(validation::TrialArm::foreign, {{"leak", {}, {{"N_s", 0.01}}}});
+  EXPECT_EQ(outcome_of(foreign, named({"weight"})), wrong);
+  EXPECT_TRUE(validation::judged(answered(foreign, verdict(validation::TrialVerdict::cannot_say))).right);
+  EXPECT_EQ(outcome_of(case_of_layout(validation::TrialArm::nulls, {}), named({"weight"})), wrong);
+}
+
+TEST(GapTrialScore, OfLayoutsOnlyScoresWithCasesAreListed) {
+  validation::TrialAnswer right = named({"weight"});
+  right.effects[0].parameters = {{"mass_kg", {0.21, 0.006}}};
+  right.closed = 0.98;
+  const validation::TrialCase null = case_of_layout(validation::TrialArm::nulls, {});
+  std::vector<validation::TrialResult> results{
+      answered(null, verdict(validation::TrialVerdict::no_gap)),
+      answered(null, verdict(validation::TrialVerdict::cannot_say)),
+      answered(case_of_layout(validation::TrialArm::single, {kHeavy}), right)};
+  results.push_back({});
+  results.back().drawn = null;
+  const validation::TrialScores scores = validation::trial_scores(results);
+  EXPECT_EQ(score_named(scores, "single-1: exact").hits, 1);
+  EXPECT_EQ(score_named(scores, "single-1: exact, or its class").hits, 1);
+  EXPECT_EQ(score_named(scores, "nulls: flagged").hits, 0);
+  EXPECT_EQ(score_named(scores, "nulls: flagged").cases, 3);
+  EXPECT_EQ(score_named(scores, "no answer").hits, 1);
+  EXPECT_EQ(score_named(scores, "parameters within 2 standard errors").hits, 1);
+  EXPECT_EQ(score_named(scores, "closure: median").value, 0.98);
+  for (const validation::TrialScore& score : scores.scores) EXPECT_GT(score.cases, 0) << score.name;
+  EXPECT_EQ(validation::trial_confusion(results).count("weight", "weight"), 1);
 }
 
 }  // namespace
