@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -170,9 +171,13 @@ TrialCase swimming_case(const LayoutTrial& trial, int number,
       fmt::format("case {}: {} draws of its effects, and the vehicle was lost with each", number, kMostAttempts));
 }
 
-/// The numbers of a value in TOML, a number or a list of them, on one line.
+std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r"), text.size()));
+  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
+}
+
+/// The numbers of a value in TOML, a number or a list of them.
 std::vector<double> numbers_in(std::string_view value) {
-  value = value.substr(0, value.find('#'));
   std::vector<double> numbers;
   for (std::size_t at = 0; (at = value.find_first_of("-.0123456789", at)) != std::string_view::npos;) {
     double number = 0;
@@ -283,19 +288,20 @@ std::string data_sheet(const LayoutVehicle& vehicle) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     const std::size_t equals = std::min(line.find('='), line.size());
-    const std::string_view key =
-        line.substr(0, std::min(line.find_last_not_of(" \t", equals == 0 ? 0 : equals - 1) + 1, equals));
+    const std::string_view key = trimmed(line.substr(0, equals));
+    const std::string_view value = line.substr(equals, line.find('#', equals) - equals);
     if (key.ends_with("_std") || key.ends_with("_range")) continue;
     sheet.append(line).append("\n");
-    if (const auto share = shares.find(key); share != shares.end() && equals < line.size()) {
-      std::vector<double> errors = numbers_in(line.substr(equals + 1));
+    if (const auto share = shares.find(key); share != shares.end()) {
+      std::vector<double> errors = numbers_in(value);
       for (double& number : errors) number = std::abs(number) * share->second;
-      const bool is_list = line.find('[', equals) < line.size();
-      sheet +=
-          is_list ? fmt::format("{}_std = {}\n", key, errors) : fmt::format("{}_std = {}\n", key, errors.at(0));
+      const bool is_list = value.find('[') < value.size();
+      if (!errors.empty())
+        sheet +=
+            fmt::format("{}_std = {}{}{}\n", key, is_list ? "[" : "", fmt::join(errors, ", "), is_list ? "]" : "");
     } else if (key == "gravity_centre_m") {
       sheet += fmt::format("{0}_std = [{1}, {1}, {1}]\n", key, arm_m * error);
-    } else if (line.starts_with("[[thruster]]")) {
+    } else if (key == "[[thruster]]") {
       sheet += fmt::format("force_scale = 1\nforce_scale_std = {}\n", error);
     }
   }

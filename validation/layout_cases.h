@@ -68,7 +68,8 @@ inline constexpr double kDayTolerance = 0.005;
 [[nodiscard]] std::vector<TrialCase> drawn_layout_cases(const LayoutTrial& trial, const std::vector<int>& numbers,
                                                         const std::function<void(double)>& progress);
 
-/// Text of the vehicle's layout as a data sheet: with standard errors that fit its error (docs/trial.md).
+/// Text of the vehicle's layout as a data sheet: with standard errors that fit its error (docs/trial.md). A list
+/// over several lines gets none.
 [[nodiscard]] std::string data_sheet(const LayoutVehicle& vehicle);
 
 }  // namespace navcal::validation

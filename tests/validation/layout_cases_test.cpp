@@ -104,13 +104,13 @@ TEST(LayoutCases, ADataSheetHasTheErrorsOfItsNumbers) {
   vehicle.layout_error = 0.04;
   vehicle.craft.layout.gravity_centre_m = {0, 0, 0.005};
   vehicle.layout.text =
-      "[body]\nmass_kg = 2  # a kg more\nmass_kg_std = 1\ngravity_centre_m = [0, 0, 0.005]\n"
-      "linear = [0.5, -1, 0]\ncoefficient_range = [0.6, 1.5]\n[[thruster]]\nlag_s = 0.1";
+      "[body]\nmass_kg = 2  # [1] more\nmass_kg_std = 1\ngravity_centre_m = [0, 0, 0.005]\n"
+      "linear = [0.5, -1, 0]\ncoefficient_range = [0.6, 1.5]\n[[thruster]]\nlag_s = 0.1\nmatrix = [\n  1, 2]";
   EXPECT_EQ(data_sheet(vehicle),
-            "[body]\nmass_kg = 2  # a kg more\nmass_kg_std = 0.02\ngravity_centre_m = [0, 0, 0.005]\n"
+            "[body]\nmass_kg = 2  # [1] more\nmass_kg_std = 0.02\ngravity_centre_m = [0, 0, 0.005]\n"
             "gravity_centre_m_std = [0.0002, 0.0002, 0.0002]\nlinear = [0.5, -1, 0]\n"
             "linear_std = [0.04, 0.08, 0]\n[[thruster]]\nforce_scale = 1\nforce_scale_std = 0.04\nlag_s = 0.1\n"
-            "lag_s_std = 0.008\n");
+            "lag_s_std = 0.008\nmatrix = [\n  1, 2]\n");
 }
 
 TEST(LayoutCases, LayoutsThatCannotBeFlownAreRefusedByName) {
