@@ -21,13 +21,13 @@ class GapTrialLayouts : public test::ProgramInFolder {
   }
 };
 
-// A null and a dead band of a thruster.
-TEST_F(GapTrialLayouts, AVehicleIsIdentifiedAndItsCasesAreAnswered) {
-  ASSERT_EQ(run_trial("micro-auv", "--only 1,2 --keep kept --json trial.json --report trial.html"), 0)
+// A case without an effect: the search for one takes half a minute more.
+TEST_F(GapTrialLayouts, AVehicleIsIdentifiedAndItsCaseIsAnswered) {
+  ASSERT_EQ(run_trial("micro-auv", "--only 1 --keep kept --json trial.json --report trial.html"), 0)
       << said("err");
   const auto json = nlohmann::json::parse(said("trial.json"));
   EXPECT_EQ(json.at("layouts").at(0), "micro-auv.toml");
-  ASSERT_EQ(json.at("cases").size(), 2U);
+  ASSERT_EQ(json.at("cases").size(), 1U);
   for (const auto& one : json.at("cases")) {
     EXPECT_FALSE(one.contains("failure")) << one;
     EXPECT_NE(one.at("outcome"), "wrong name") << one.at("truth") << one.at("answer");
@@ -35,12 +35,12 @@ TEST_F(GapTrialLayouts, AVehicleIsIdentifiedAndItsCasesAreAnswered) {
               one.at("sha256"));
     EXPECT_LT(said("out").find(one.at("sha256").get<std::string>()), said("out").find("answered in"));
   }
-  EXPECT_EQ(json.at("cases").at(1).at("arm"), "single-1");
+  EXPECT_EQ(json.at("cases").at(0).at("arm"), "nulls");
   EXPECT_NE(said("trial.html").find("1 vehicles by micro-auv.toml"), std::string::npos);
   EXPECT_NE(said("kept/vehicle-1/sheet.toml").find("force_scale_std = 0.05"), std::string::npos);
 
   const std::string ports = "kept/vehicle-1/";
-  for (const char* const file : {"vehicle-1/nominal-1.cap", "0001/a.cap", "0002/c.cap"}) {
+  for (const char* const file : {"vehicle-1/nominal-1.cap", "0001/a.cap", "0001/c.cap"}) {
     for (const char* const port : {"compass", "imu", "gps", "doppler", "actuators"}) {
       const std::string described =
           std::string(port) == "actuators" ? "--device " + ports + "actuator-outputs.toml " : "";
