@@ -113,6 +113,7 @@ void write_exports(const std::vector<ExportFile>& files, const ExportOptions& op
 
 struct GapCommandOptions : GapRequestOptions {
   std::vector<std::string> nominals;
+  bool is_steady = false;
   std::string json, report;
   std::string saved;  ///< diagnosis to read instead of making one: --from without a recording
   ExportOptions exports;
@@ -149,6 +150,7 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (!options.source.config.empty()) files.settings = config::load(options.source.config);
   diagnosis::LayoutRequest request{.layout = layout, .excluded = options.source.excluded};
   request.seed = options.bank_seed;
+  request.is_steady = options.is_steady;
   base::Progress progress("gap", base::Progress::Answer::at_the_end);
   const auto show = [&](std::string_view what, double done) { progress.show(what, done); };
   gap::Diagnosis answer = diagnosis::diagnose(request, diagnosis::load(files, show), show);
@@ -161,6 +163,7 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   if (!options.nominals.empty())
     throw std::invalid_argument(
         "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
+  if (options.is_steady) throw std::invalid_argument("--steady needs a layout (--vehicle)");
   const gap::Request request = gap_request_of(options);
   base::Progress progress("gap", base::Progress::Answer::at_the_end);
   return gap::diagnose(request, [&](std::string_view what, double done) { progress.show(what, done); });
@@ -242,6 +245,10 @@ void add_gap(CLI::App& app) {
   add_repeatable(command, "--nominal", "FILE", options->nominals,
                  "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
                  "repeatable");
+  command->add_flag(
+      "--steady", options->is_steady,
+      "judge by mean forces over steady stretches alone, as is done where the layout cannot follow a "
+      "recording; only with a layout");
   add_valued(command, "--json", "FILE|-", options->json,
              "the answer as one JSON object; - is standard output, without text");
   add_valued(command, "--report", "FILE.html", options->report, "page with pictures; needs no other file");

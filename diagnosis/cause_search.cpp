@@ -173,7 +173,7 @@ double SetEvidence::gain(const CauseSet& set) const {
   return base::log_mean_exp(gains) + log_prior(set.size(), library_.causes.size());
 }
 
-std::optional<RecordingFit> settled(const FittedRecording& recording, const JointPrior& prior,
+std::optional<RecordingFit> settled(const RecordingModel& recording, const JointPrior& prior,
                                     const Eigen::VectorXd& from, const ChangeOf& change_of,
                                     const LogPriorOf& log_prior_of) {
   std::optional<RecordingFit> best;
@@ -211,16 +211,16 @@ std::optional<RecordingFit> settled(const FittedRecording& recording, const Join
   return best;
 }
 
-CauseSearchResult search_causes(const FittedRecording& recording, const JointPrior& prior,
+CauseSearchResult search_causes(const RecordingModel& recording, const JointPrior& prior,
                                 const CauseLibrary& library, const Progress& progress) {
   CauseSearchResult result;
   const Eigen::VectorXd no_change = Eigen::VectorXd::Zero(library.columns());
   // Causes are looked for where the nominal vehicle is: its tolerances, fitted to a gap, lead astray.
   auto first = recording.fit(prior.mean);
   auto nominal = settled(recording, prior, prior.mean, [&](const Likelihood&) { return no_change; });
-  if (!nominal) throw cannot_follow(recording.filter().recording());
+  if (!nominal) throw cannot_follow(recording.recording());
   if (!first) first = nominal;
-  result.none_at = prior.posterior_mean(nominal->linear);
+  result.none = nominal->linear;
   const double none = prior.of_changes(nominal->linear).value;
   const SetEvidence about_first(prior.of_changes(first->linear), library);
   Scores scores;

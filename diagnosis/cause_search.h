@@ -26,7 +26,7 @@ struct ScoredSet {
 struct CauseSearchResult {
   std::vector<ScoredSet> sets;  ///< most probable first
   RecordingFit best;            ///< fitted with the causes of the first one
-  Eigen::VectorXd none_at;      ///< departures without a cause
+  Likelihood none;              ///< of departures without a cause, about the best of them
   Likelihood changes;           ///< of the nominal vehicle, in `best`
 };
 
@@ -69,13 +69,13 @@ using LogPriorOf = std::function<double(const Eigen::VectorXd&)>;
 /// A recording linearised again and again where it says that its vehicle is, until its evidence settles. nullopt:
 /// a vehicle could not have moved so. Only recordings that have settled alike compare.
 [[nodiscard]] std::optional<RecordingFit> settled(
-    const FittedRecording& recording, const JointPrior& prior, const Eigen::VectorXd& from,
+    const RecordingModel& recording, const JointPrior& prior, const Eigen::VectorXd& from,
     const ChangeOf& change_of, const LogPriorOf& log_prior_of = [](const auto&) { return 0.0; });
 
 /// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation of the
 /// nominal vehicle; the leaders are fitted again at their own estimate, because large effects are not linear, and
 /// score their larger neighbours. Throws std::invalid_argument where the nominal vehicle cannot follow.
-[[nodiscard]] CauseSearchResult search_causes(const FittedRecording& recording, const JointPrior& prior,
+[[nodiscard]] CauseSearchResult search_causes(const RecordingModel& recording, const JointPrior& prior,
                                               const CauseLibrary& library, const Progress& progress);
 
 }  // namespace navcal::diagnosis

@@ -11,6 +11,7 @@
 #include "diagnosis/held_out.h"
 #include "diagnosis/layout_verdict.h"
 #include "diagnosis/nominal_bank.h"
+#include "diagnosis/steady_recording.h"
 
 namespace navcal::diagnosis {
 namespace {
@@ -18,35 +19,29 @@ namespace {
 using gap::Diagnosis;
 using identify::RecordedMotion;
 
-void find_causes(const LayoutRequest& request, const LayoutRecordings& recordings, const LayoutProgress& progress,
-                 Diagnosis& answer) {
+void find_causes(const LayoutRequest& request, const LayoutRecordings& recordings, const CauseLibrary& library,
+                 ModelSource& source, const LayoutProgress& progress, Diagnosis& answer) {
   const RecordedMotion& recording = recordings.recording;
-  const unsigned threads = base::threads_or_cores(request.threads);
-  const CauseLibrary library = causes_of(request.layout, recording, request.excluded);
   answer.remarks.insert(answer.remarks.end(), library.not_judged.begin(), library.not_judged.end());
-  const NominalBank bank = bank_of(request.layout, library, recordings.nominals, recording, threads,
+  const NominalBank bank = bank_of(source, library, recordings.nominals, recording,
                                    [&](double done) { progress("nominal recordings", done); });
   answer.remarks.push_back(
       bank.powers.empty()
           ? std::string("no nominal recording was given (--nominal): there is no floor, and no cause is named")
           : fmt::format("the floor is that of {} nominal recording{}", bank.powers.size(),
                         bank.powers.size() == 1 ? "" : "s"));
-  const auto filter_of = [&](const RecordedMotion& of) {
-    FittedRecording fitted(request.layout, library, of, bank.noises, threads);
-    fitted.hold_gains(bank.prior.mean);
-    return fitted;
-  };
-  const FittedRecording mine = filter_of(recording);
-  for (const std::string& oddity : mine.filter().oddities()) answer.remarks.push_back(oddity);
+  const auto compared = source.compared(recording, bank.prior.mean);
+  const RecordingModel& mine = *compared;
+  for (const std::string& oddity : mine.oddities()) answer.remarks.push_back(oddity);
   const CauseSearchResult found =
       search_causes(mine, bank.prior, library, [&](double done) { progress("search", done); });
   ExplainedRecording itself;
-  itself.before = mine.power(found.none_at).value_or(RecordingPower{});
+  itself.before = mine.power(mine.own_departures(bank.prior, found.none)).value_or(RecordingPower{});
   const auto with = [&](const CauseSet& set) {
     ExplainedRecording changed = itself;
     const auto by = SetEvidence(found.changes, library).posterior(set).among(library.columns());
     changed.after =
-        mine.power(bank.prior.posterior_mean(found.best.linear.about(by)) + by).value_or(itself.before);
+        mine.power(mine.own_departures(bank.prior, found.best.linear.about(by)) + by).value_or(itself.before);
     return changed;
   };
   itself = with(found.sets.front().causes);
@@ -55,7 +50,7 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
   if (!found.sets.front().causes.empty()) {
     for (const RecordedMotion& other : recordings.holdouts) {
       progress("held out " + other.name, 0);
-      explained.push_back(held_out(filter_of(other), bank.prior, library, found));
+      explained.push_back(held_out(*source.compared(other, bank.prior.mean), bank.prior, library, found));
     }
   }
   answer.gap.held_out = !explained.empty();
@@ -66,7 +61,7 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
     const ExplainedRecording one = with(set);
     return closure_of(std::span(&one, 1), bank.floor().mean, request.seed);
   };
-  write_verdict({library, bank, found, itself.after, explained, closure}, answer);
+  write_verdict({library, bank, found, itself.after, explained, closure, itself.before.mean_square}, answer);
 }
 
 }  // namespace
@@ -77,14 +72,33 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
   Diagnosis answer;
   answer.duration_s = recordings.recording.duration_s;
   answer.remarks = recordings.recording.remarks;
-  // An excluded name that is no cause is the caller's fault.
-  static_cast<void>(causes_of(request.layout, recordings.recording, request.excluded));
-  try {
-    find_causes(request, recordings, progress, answer);
-  } catch (const std::invalid_argument& reason) {
-    answer.verdict = gap::Verdict::unknown;
-    answer.remarks.emplace_back(reason.what());
-    answer.sentence = "The recording cannot be diagnosed: " + std::string(reason.what()) + '.';
+  const Diagnosis empty = answer;
+  // Why the recording is not judged so; empty: it is.
+  const auto judge = [&](const CauseLibrary& library, ModelSource&& source) -> std::string {
+    try {
+      find_causes(request, recordings, library, source, progress, answer);
+      return {};
+    } catch (const std::invalid_argument& error) {
+      answer = empty;
+      return error.what();
+    }
+  };
+  std::string reason = "asked for (--steady)";
+  if (!request.is_steady) {
+    // An excluded name that is no cause is the caller's fault.
+    const CauseLibrary library = causes_of(request.layout, recordings.recording, request.excluded);
+    reason = judge(library, FilteredSource(request.layout, library, base::threads_or_cores(request.threads)));
+  }
+  if (!reason.empty()) {
+    const CauseLibrary library = steady_causes_of(request.layout, recordings.recording, request.excluded);
+    const std::string why_not = judge(library, SteadySource(request.layout, library));
+    answer.remarks.push_back("judged by mean forces over steady stretches alone: " + reason);
+    if (!why_not.empty()) {
+      answer.verdict = gap::Verdict::unknown;
+      answer.remarks.back() = reason;
+      if (why_not != reason) answer.remarks.push_back("by mean forces over steady stretches: " + why_not);
+      answer.sentence = "The recording cannot be diagnosed: " + (request.is_steady ? why_not : reason) + '.';
+    }
   }
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return answer;

@@ -22,6 +22,9 @@ struct LayoutRequest {
   std::vector<std::string> excluded;  ///< effects that the library is to be without
   std::uint64_t seed = 1;
   unsigned threads = 0;  ///< 0: as many as there are cores
+  /// Judges by mean forces over steady stretches alone. Else that is done where the layout cannot follow a
+  /// recording.
+  bool is_steady = false;
 };
 
 struct LayoutRecordings {

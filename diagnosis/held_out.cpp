@@ -21,7 +21,7 @@ double predicted(const Likelihood& changes, const SetEvidence& estimated, const 
 
 }  // namespace
 
-ExplainedRecording held_out(const FittedRecording& recording, const JointPrior& prior, const CauseLibrary& library,
+ExplainedRecording held_out(const RecordingModel& recording, const JointPrior& prior, const CauseLibrary& library,
                             const CauseSearchResult& found) {
   const CauseSet& best = found.sets.front().causes;
   const SetEvidence estimated(found.changes, library);
@@ -31,9 +31,9 @@ ExplainedRecording held_out(const FittedRecording& recording, const JointPrior& 
   };
   const auto none = changed_by(Eigen::VectorXd::Zero(library.columns())), with = changed_by(change);
   ExplainedRecording explained{-std::numeric_limits<double>::infinity(), {}, {}, {}};
-  if (!none) throw cannot_follow(recording.filter().recording());
+  if (!none) throw cannot_follow(recording.recording());
   explained.before = explained.after =
-      recording.power(prior.posterior_mean(none->linear)).value_or(RecordingPower{});
+      recording.power(recording.own_departures(prior, none->linear)).value_or(RecordingPower{});
   // A vehicle with these effects could not have moved as this one did.
   if (!with) return explained;
   const Likelihood changes = prior.of_changes(with->linear);
@@ -45,7 +45,7 @@ ExplainedRecording held_out(const FittedRecording& recording, const JointPrior& 
     explained.member_nats.push_back(others.empty() ? explained.gain_nats
                                                    : of_all - predicted(changes, estimated, others));
   }
-  const auto after = recording.power(prior.posterior_mean(with->linear.about(change)) + change);
+  const auto after = recording.power(recording.own_departures(prior, with->linear.about(change)) + change);
   if (after) explained.after = *after;
   return explained;
 }

@@ -107,7 +107,7 @@ std::optional<std::string> objection(const LayoutEvidence& evidence, const Membe
   kind = gap::UnknownKind::cannot_say;
   const Cause& cause = evidence.library.causes[member.cause];
   const double chance_nats = evidence.bank.chance_nats[member.cause];
-  if (member.lead_nats < kNamed_nats + chance_nats) {
+  if (member.lead_nats < evidence.bank.leads.named_nats + chance_nats) {
     return fmt::format(
         "the most probable cause, {}, leads by {:.0f} nats only, and by {:.0f} in nominal recordings",
         cause.words(), member.lead_nats, chance_nats);
@@ -147,7 +147,8 @@ std::vector<gap::Alternative> alternatives_of(const LayoutEvidence& evidence) {
   const auto& sets = evidence.found.sets;
   std::vector<gap::Alternative> all;
   for (const ScoredSet& one : sets) {
-    if (sets.front().log_odds - one.log_odds >= kNamed_nats || all.size() == kMostAlternatives) break;
+    if (sets.front().log_odds - one.log_odds >= evidence.bank.leads.named_nats || all.size() == kMostAlternatives)
+      break;
     if (one.causes.empty()) continue;
     const gap::Closure closure = evidence.closure(one.causes);
     if (closure.closed_ci && (*closure.closed_ci)[1] < gap::kClosedFrom) continue;
@@ -209,7 +210,7 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
 }
 
 /// Lead that makes a gap, in addition to what nominal recordings have by chance.
-double gap_nats(const NominalBank& bank) { return bank.powers.size() == 1 ? 2 * kGap_nats : kGap_nats; }
+double gap_nats(const NominalBank& bank) { return bank.leads.gap_nats * (bank.powers.size() == 1 ? 2 : 1); }
 
 /// Log odds that are expected where one parameter has a size and nothing else has changed, nats.
 double expected_gain(const LayoutEvidence& evidence, std::size_t cause, Eigen::Index column, double size) {
@@ -300,20 +301,21 @@ std::vector<gap::WhereEntry> louder_channels(const RecordingPower& of, std::span
 }
 
 void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
-  const auto& [library, bank, found, after, held_out, closure] = evidence;
+  const auto& [library, bank, found, after, held_out, closure, before] = evidence;
   const ScoredSet& best = found.sets.front();
   add_candidates(evidence, answer);
   const bool has_floor = !bank.powers.empty();
   const Floor floor = bank.floor();
   const auto louder = has_floor ? louder_channels(after, bank.powers) : std::vector<gap::WhereEntry>{};
   const bool is_loud = has_floor && after.mean_square > floor.limit(kNominalPowerFactor);
+  const bool was_loud = is_loud || (has_floor && before > floor.limit(kNominalPowerFactor));
   double gain_nats = best.log_odds;
   for (const ScoredSet& one : found.sets) {
     if (one.causes.empty()) gain_nats -= one.log_odds;
   }
   double chance_nats = 0;
   for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, bank.chance_nats[cause]);
-  if (louder.empty() && !is_loud && gain_nats < gap_nats(bank) + chance_nats) {
+  if (louder.empty() && !was_loud && gain_nats < gap_nats(bank) + chance_nats) {
     answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();
     const bool is_faint = gain_nats >= kFaint_nats;
@@ -326,7 +328,17 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     }
     return;
   }
-  if (best.causes.empty()) return say_unknown(gap::UnknownKind::outside, {}, louder, answer);
+  if (best.causes.empty()) {
+    const auto leading = std::find_if(found.sets.begin(), found.sets.end(),
+                                      [](const ScoredSet& one) { return !one.causes.empty(); });
+    const auto closed = leading == found.sets.end() ? std::nullopt : closure(leading->causes).closed;
+    if (!louder.empty() || closed.value_or(0) < gap::kClosedFrom)
+      return say_unknown(gap::UnknownKind::outside, {}, louder, answer);
+    return say_unknown(
+        gap::UnknownKind::cannot_say,
+        library.causes[leading->causes.front()].words() + " would explain it, but stands out too little", louder,
+        answer);
+  }
   const auto estimate = SetEvidence(found.changes, library).posterior(best.causes);
   std::string reason;
   std::vector<std::string> not_named;

@@ -24,6 +24,7 @@ struct LayoutEvidence {
   std::span<const ExplainedRecording> held_out;  ///< may be none
   /// Share of the gap that goes away with a set of causes.
   std::function<gap::Closure(const CauseSet&)> closure = {};
+  double before = 0;  ///< noise power of the recording without causes
 };
 
 /// Writes verdict, sentence, effects, candidates and what stays unexplained (docs/gap.md, "Vehicles with a

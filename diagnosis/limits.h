@@ -23,7 +23,7 @@ inline constexpr double kEffectStep = 0.01, kOneSidedStep = 1;
 inline constexpr double kDelayStep_s = 0.08;
 /// Passes over the nominal recordings: each is linearised again at the estimate by all of them. The noises are
 /// fitted in the first ones.
-inline constexpr int kNominalRounds = 3, kNoiseRounds = 2;
+inline constexpr std::size_t kNominalRounds = 3, kNoiseRounds = 2;
 /// Nominal recordings that the noises are fitted to; more change them little and take as long again.
 inline constexpr std::size_t kNoiseFrom = 2;
 /// Standard deviation of what is usual in vehicles and between recordings, typical strengths, and the number of
@@ -59,6 +59,10 @@ inline constexpr double kClass_nats = 5;
 /// A smaller lead, of odds of 20 to 1, is said: simulated nominal recordings of 30 s have up to 13 nats.
 /// Beside one nominal recording twice as many: it tells nothing of the scatter between recordings.
 inline constexpr double kGap_nats = 10, kFaint_nats = 3;
+/// The same two of mean forces over steady stretches (SteadyRecording): a probability of 0.8, as of short runs.
+/// The scatter between nominal recordings is in the evidence, and there are few numbers, not the many readings of
+/// a filter.
+inline constexpr double kSteadyGap_nats = 1.4, kSteadyNamed_nats = 1.4;
 /// A cause is named only if one of its parameters is so many standard errors from zero.
 inline constexpr double kLeastPresence_sigma = 2;
 

@@ -24,7 +24,9 @@ double Floor::limit(double factor) const {
     sigma = boost::math::quantile(boost::math::complement(student, kNominalChance)) *
             std::sqrt(1 + 1 / static_cast<double>(count));
   }
-  return std::max(mean * factor, mean + sigma * std);
+  // Mean squares are skew, their roots hardly: a normal deviation is one of the root.
+  const double root = std::sqrt(mean);
+  return std::max(mean * factor, std::pow(root + sigma * std / (2 * root), 2));
 }
 
 Floor floor_of(std::span<const double> of_recordings) {
@@ -98,6 +100,11 @@ Likelihood shared_by(std::span<const Likelihood> recordings, const ColumnScatter
   return sum;
 }
 
+ColumnScatter widened(ColumnScatter scatter, double session_factor) {
+  scatter.session *= session_factor;
+  return scatter;
+}
+
 }  // namespace
 
 ColumnScatter scatter_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds) {
@@ -157,34 +164,22 @@ Floor NominalBank::floor() const {
   return floor_of(of_recordings);
 }
 
-NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
-                    std::span<const RecordedMotion> recordings, const RecordedMotion& alone, unsigned threads,
-                    const Progress& progress) {
+NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<const RecordedMotion> recordings,
+                    const RecordedMotion& alone, const Progress& progress) {
   NominalBank bank;
+  bank.leads = source.leads(recordings.size());
   bank.chance_nats.assign(library.causes.size(), 0);
   const std::span<const RecordedMotion> all = recordings.empty() ? std::span(&alone, 1) : recordings;
-  std::vector<std::unique_ptr<FittedRecording>> followed;
-  for (const RecordedMotion& recording : all)
-    followed.push_back(std::make_unique<FittedRecording>(layout, library, recording, bank.noises, threads));
+  std::vector<std::unique_ptr<RecordingModel>> models;
+  for (const RecordedMotion& recording : all) models.push_back(source.nominal(recording));
   std::vector<Eigen::VectorXd> at(all.size(), Eigen::VectorXd::Zero(library.columns()));
   std::vector<Likelihood> linear(all.size());
   ColumnScatter scatter = scatter_of(library, identify::nuisance_stds(alone));
-  for (int round = 0; round < kNominalRounds; ++round) {
+  for (std::size_t round = 0; round < kNominalRounds; ++round) {
     progress(static_cast<double>(round) / kNominalRounds);
-    if (round < kNoiseRounds) {
-      std::vector<identify::FilterPass> passes;
-      std::vector<identify::FollowedRecording> of_noise;
-      for (std::size_t i = 0; i < std::min(all.size(), kNoiseFrom); ++i) {
-        auto pass = followed[i]->follow(at[i]);
-        if (!pass) throw cannot_follow(all[i]);
-        passes.push_back(std::move(*pass));
-      }
-      for (std::size_t i = 0; i < passes.size(); ++i) of_noise.push_back({&followed[i]->filter(), &passes[i]});
-      bank.noises = identify::fit_noises(of_noise, bank.noises, threads).noises;
-    }
+    source.refine(round, at);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      followed[i]->filter().set_noises(bank.noises);
-      auto fit = followed[i]->fit(at[i]);
+      auto fit = models[i]->fit(at[i]);
       if (!fit) throw cannot_follow(all[i]);
       linear[i] = std::move(fit->linear);
     }
@@ -194,16 +189,18 @@ NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
       return bank;
     }
     scatter = scatter_among(library, linear, scatter);
-    bank.prior = prior_from(linear, scatter);
+    bank.prior = prior_from(linear, widened(scatter, bank.leads.session_factor));
     for (std::size_t i = 0; i < all.size(); ++i) at[i] = bank.prior.posterior_mean(linear[i]);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<Likelihood> others = linear;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const SetEvidence evidence(prior_from(others, scatter).of_changes(linear[i]), library);
+    const SetEvidence evidence(
+        prior_from(others, widened(scatter, bank.leads.session_factor)).of_changes(linear[i]), library);
     for (std::size_t cause = 0; cause < library.causes.size(); ++cause)
       bank.chance_nats[cause] = std::max(bank.chance_nats[cause], evidence.gain({cause}));
-    if (auto power = followed[i]->power(at[i])) bank.powers.push_back(std::move(*power));
+    if (auto power = models[i]->power(models[i]->own_departures(bank.prior, linear[i])))
+      bank.powers.push_back(std::move(*power));
   }
   return bank;
 }

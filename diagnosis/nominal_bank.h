@@ -36,21 +36,20 @@ struct ColumnScatter {
 
 /// Nominal recordings of a vehicle: the floor of a diagnosis.
 struct NominalBank {
-  identify::FilterNoises noises;
   JointPrior prior;                    ///< of another recording
   std::vector<RecordingPower> powers;  ///< of each one
   /// For each cause, the largest log evidence that a nominal recording has for it when the others are its prior,
   /// nats.
   std::vector<double> chance_nats;
+  Leads leads;
 
   [[nodiscard]] Floor floor() const;  ///< of the noise power of all channels together
 };
 
 /// Throws std::invalid_argument in words. `recordings` may be empty: then the noises are those of `alone`, the
 /// prior has the tolerances, and there is no floor.
-[[nodiscard]] NominalBank bank_of(const config::Layout& layout, const CauseLibrary& library,
+[[nodiscard]] NominalBank bank_of(ModelSource& source, const CauseLibrary& library,
                                   std::span<const identify::RecordedMotion> recordings,
-                                  const identify::RecordedMotion& alone, unsigned threads,
-                                  const Progress& progress);
+                                  const identify::RecordedMotion& alone, const Progress& progress);
 
 }  // namespace navcal::diagnosis

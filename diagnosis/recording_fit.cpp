@@ -56,6 +56,16 @@ std::invalid_argument cannot_follow(const identify::RecordedMotion& recording) {
   return std::invalid_argument(recording.name + ": the layout cannot follow it: is it this vehicle's?");
 }
 
+Eigen::VectorXd values_within(const CauseLibrary& library, const Eigen::VectorXd& start,
+                              const Eigen::VectorXd& at) {
+  Eigen::VectorXd values = start + at;
+  for (std::size_t i = 0; i < library.parameters.size(); ++i) {
+    double& value = values[static_cast<Eigen::Index>(i)];
+    value = std::clamp(value, library.parameters[i].low, library.parameters[i].high);
+  }
+  return values;
+}
+
 FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrary& library,
                                  const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
                                  unsigned threads)
@@ -65,15 +75,6 @@ FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrar
   columns_[library.parameters.size() + static_cast<std::size_t>(identify::Nuisance::actuator_delay)].step =
       kDelayStep_s;
   filter_.leave_out_diverging(filter_.start());
-}
-
-Eigen::VectorXd FittedRecording::values_at(const Eigen::VectorXd& at) const {
-  Eigen::VectorXd values = filter_.start() + at;
-  for (std::size_t i = 0; i < library_.parameters.size(); ++i) {
-    double& value = values[static_cast<Eigen::Index>(i)];
-    value = std::clamp(value, library_.parameters[i].low, library_.parameters[i].high);
-  }
-  return values;
 }
 
 std::optional<identify::FilterPass> FittedRecording::follow(const Eigen::VectorXd& at) const {
@@ -123,5 +124,36 @@ std::optional<RecordingPower> FittedRecording::power(const Eigen::VectorXd& at) 
     power.of_channel[c] = counts[c] > 0 ? squares[c] / counts[c] : -1;
   return power;
 }
+
+std::unique_ptr<RecordingModel> FilteredSource::nominal(const identify::RecordedMotion& recording) {
+  auto made = std::make_unique<FittedRecording>(layout_, library_, recording, noises_, threads_);
+  nominals_.push_back(made.get());
+  return made;
+}
+
+void FilteredSource::refine(std::size_t round, std::span<const Eigen::VectorXd> at) {
+  if (round < kNoiseRounds) {
+    std::vector<identify::FilterPass> passes;
+    std::vector<identify::FollowedRecording> of_noise;
+    const std::size_t count = std::min(nominals_.size(), kNoiseFrom);
+    for (std::size_t i = 0; i < count; ++i) {
+      auto pass = nominals_[i]->follow(at[i]);
+      if (!pass) throw cannot_follow(nominals_[i]->recording());
+      passes.push_back(std::move(*pass));
+    }
+    for (std::size_t i = 0; i < count; ++i) of_noise.push_back({&nominals_[i]->filter(), &passes[i]});
+    noises_ = identify::fit_noises(of_noise, noises_, threads_).noises;
+  }
+  for (FittedRecording* one : nominals_) one->filter().set_noises(noises_);
+}
+
+std::unique_ptr<RecordingModel> FilteredSource::compared(const identify::RecordedMotion& recording,
+                                                         const Eigen::VectorXd& nominal) const {
+  auto made = std::make_unique<FittedRecording>(layout_, library_, recording, noises_, threads_);
+  made->hold_gains(nominal);
+  return made;
+}
+
+Leads FilteredSource::leads(std::size_t) const { return {kGap_nats, kNamed_nats, 1}; }
 
 }  // namespace navcal::diagnosis

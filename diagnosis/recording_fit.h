@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -66,8 +68,55 @@ struct RecordingPower {
   std::vector<double> readings;  ///< behind them
 };
 
+/// Leads over the other sets of causes that a verdict needs beyond what nominal recordings have by chance, nats.
+struct Leads {
+  double gap_nats = 0, named_nats = 0;
+  double session_factor = 1;  ///< on the scatter between recordings, which few nominal ones underestimate
+};
+
+/// A recording as evidence about the vehicle and its instruments.
+class RecordingModel {
+ public:
+  RecordingModel() = default;
+  RecordingModel(const RecordingModel&) = delete;
+  RecordingModel& operator=(const RecordingModel&) = delete;
+  virtual ~RecordingModel() = default;
+
+  /// nullopt: a vehicle with these departures could not have moved so. Departures beyond a bound are at the bound.
+  [[nodiscard]] virtual std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const = 0;
+  [[nodiscard]] virtual std::optional<RecordingPower> power(const Eigen::VectorXd& at) const = 0;
+  /// Departures of the vehicle in this recording, about which its power counts.
+  [[nodiscard]] virtual Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood& here) const = 0;
+  [[nodiscard]] virtual const identify::RecordedMotion& recording() const = 0;
+  /// What is odd about its commands, in words.
+  [[nodiscard]] virtual std::vector<std::string> oddities() const = 0;
+};
+
+/// Makes the models of a diagnosis.
+class ModelSource {
+ public:
+  ModelSource() = default;
+  ModelSource(const ModelSource&) = delete;
+  ModelSource& operator=(const ModelSource&) = delete;
+  virtual ~ModelSource() = default;
+
+  /// A nominal recording. Throws std::invalid_argument where the recording cannot be judged.
+  [[nodiscard]] virtual std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) = 0;
+  /// Fits what the recordings share beside the vehicle (noises) to its nominal models, each at its departures,
+  /// before they are linearised for the `round`-th time from 0 on.
+  virtual void refine(std::size_t round, std::span<const Eigen::VectorXd> at) = 0;
+  /// A recording that is compared with a nominal vehicle of these departures.
+  [[nodiscard]] virtual std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
+                                                                 const Eigen::VectorXd& nominal) const = 0;
+  [[nodiscard]] virtual Leads leads(std::size_t nominals) const = 0;
+};
+
+/// Values of the fit at some departures from `start`, within the bounds of the library's parameters.
+[[nodiscard]] Eigen::VectorXd values_within(const CauseLibrary& library, const Eigen::VectorXd& start,
+                                            const Eigen::VectorXd& at);
+
 /// A recording with the filter that follows it. The recording and the library must outlive it.
-class FittedRecording {
+class FittedRecording final : public RecordingModel {
  public:
   /// Throws std::invalid_argument in words when commands or readings are missing, and where the layout cannot
   /// follow the recording.
@@ -79,20 +128,47 @@ class FittedRecording {
   /// compare: a filter that expects other errors is more or less probable for that alone, whatever caused the
   /// readings. Throws std::invalid_argument where the layout cannot follow the recording so.
   void hold_gains(const Eigen::VectorXd& at);
-  /// nullopt: a vehicle with these departures could not have moved so. Departures beyond a bound are at the bound.
-  [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const;
-  [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const;
+  [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
+  [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const override;
+  [[nodiscard]] Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood& here) const override {
+    return prior.posterior_mean(here);
+  }
+  [[nodiscard]] const identify::RecordedMotion& recording() const override { return filter_.recording(); }
+  [[nodiscard]] std::vector<std::string> oddities() const override { return filter_.oddities(); }
   [[nodiscard]] std::optional<identify::FilterPass> follow(const Eigen::VectorXd& at) const;
   [[nodiscard]] identify::FilteredReplay& filter() { return filter_; }
   [[nodiscard]] const identify::FilteredReplay& filter() const { return filter_; }
 
  private:
-  [[nodiscard]] Eigen::VectorXd values_at(const Eigen::VectorXd& at) const;
+  [[nodiscard]] Eigen::VectorXd values_at(const Eigen::VectorXd& at) const {
+    return values_within(library_, filter_.start(), at);
+  }
 
   const CauseLibrary& library_;
   identify::FilteredReplay filter_;
   std::vector<identify::FilterColumn> columns_;
   std::optional<identify::FilterPass> held_;
+};
+
+/// Recordings followed by a filter, with noises that are fitted to the nominal ones. Layout and library must
+/// outlive it and its models.
+class FilteredSource final : public ModelSource {
+ public:
+  FilteredSource(const config::Layout& layout, const CauseLibrary& library, unsigned threads)
+      : layout_(layout), library_(library), threads_(threads) {}
+
+  [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override;
+  void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
+  [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
+                                                         const Eigen::VectorXd& nominal) const override;
+  [[nodiscard]] Leads leads(std::size_t nominals) const override;
+
+ private:
+  const config::Layout& layout_;
+  const CauseLibrary& library_;
+  unsigned threads_;
+  identify::FilterNoises noises_;
+  std::vector<FittedRecording*> nominals_;  ///< those that nominal() made
 };
 
 }  // namespace navcal::diagnosis

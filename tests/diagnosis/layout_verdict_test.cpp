@@ -33,6 +33,7 @@ struct Searched {
       bank.powers.back().of_channel.fill(one);
     }
     bank.chance_nats = {0, 0};
+    bank.leads = {kGap_nats, kNamed_nats};
     found.sets = {{{0}, 40, 0.99}, {{1}, 10, 0.008}, {{}, 0, 0.002}};
     found.changes = {1e4 * Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d(1e4, 0), 0};
   }
@@ -110,6 +111,14 @@ TEST(LayoutVerdict, WithoutACauseAndALouderChannelThereIsNoGap) {
   EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::outside);
 }
 
+TEST(LayoutVerdict, ALeadThatIsTooSmallAndWouldCloseTheGapIsNotOutsideTheLibrary) {
+  Searched searched;
+  searched.found.sets = {{{}, 0, 0.9}, {{0}, -2.2, 0.1}};
+  searched.after.mean_square = 3;
+  expect_unknown(searched, "first of thruster.1 would explain it, but stands out too little");
+  EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::cannot_say);
+}
+
 TEST(LayoutVerdict, CausesThatCannotBeToldApartAreOneAnswer) {
   Searched searched;
   searched.found.sets[1].log_odds = 38;
@@ -170,6 +179,7 @@ TEST(LayoutVerdict, WithoutNominalRecordingsNothingIsNamed) {
   Searched searched;
   searched.bank = {};
   searched.bank.chance_nats = {0, 0};
+  searched.bank.leads = {kGap_nats, kNamed_nats};
   expect_unknown(searched,
                  "without nominal recordings (--nominal): the most probable candidate is first of "
                  "thruster.1, k 1 +- 0.01");
@@ -230,7 +240,7 @@ TEST(LayoutVerdict, AnActuatorMayLoseAnyPart) {
 TEST(Floor, HasRoomForTheScatterAndForTolerancesThatNominalRecordingsDoNotShow) {
   EXPECT_EQ(floor_of({}).mean, 1);
   const std::array one{4.0};
-  EXPECT_DOUBLE_EQ(floor_of(one).limit(1.5), 6);
+  EXPECT_DOUBLE_EQ(floor_of(one).limit(1.5), 6.25) << "five deviations of 0.1 of the root, 2";
   const std::array wide{1.0, 3.0};
   EXPECT_GT(floor_of(wide).limit(1.5), 2 + 5);
   const std::array two{1.0, 1.2};

@@ -31,7 +31,7 @@ enum class LayoutScale : std::uint8_t {
   one,
   mass_kg,
   weight_N,
-  length_m,  ///< cube root of the volume that the vehicle displaces
+  length_m,  ///< cube root of the volume of water that it displaces, or that weighs as much where that is more
 };
 
 /// The part that an effect changes: the vehicle, an actuator by kind and number from 0, or a degree of freedom, 0
