@@ -54,10 +54,11 @@ double log_share_within(double low, double high, double mean, double std) {
   return log_share_below((high - mean) / std) + log_share_below((mean - low) / std);
 }
 
-double log_prior(std::size_t size, std::size_t causes) {
-  double log_prior = 0;
+/// `is_robust`: Student's t has the tails for which the first effect pays elsewhere.
+double log_prior(std::size_t size, std::size_t causes, bool is_robust) {
+  double log_prior = size > 0 && !is_robust ? -kComplexityPenalty_nats : 0;
   for (std::size_t i = 0; i < size; ++i) {
-    log_prior -= i == 0 ? kComplexityPenalty_nats : kComplexityPenaltyPerFurtherEffect_nats;
+    if (i > 0) log_prior -= kComplexityPenaltyPerFurtherEffect_nats;
     log_prior -= std::log(static_cast<double>(causes - i) / static_cast<double>(i + 1));
   }
   return log_prior;
@@ -155,7 +156,7 @@ Eigen::VectorXd SetEvidence::Posterior::among(Eigen::Index count) const {
 double SetEvidence::gain(const CauseSet& set, double strength) const {
   const Members members = members_of(set, library_, strength);
   const Likelihood here = changes_.of(members.columns).about(members.mean);
-  double gain = here.blurred(members.std.asDiagonal()).value - changes_.value;
+  double gain = here.blurred(members.std.asDiagonal()).evidence() - changes_.evidence();
   const Posterior wide = unbounded_posterior(members, here);
   for (Eigen::Index i = 0; i < wide.mean.size(); ++i) {
     // A prior that ends at the bounds has its whole weight between them.
@@ -170,7 +171,8 @@ double SetEvidence::gain(const CauseSet& set) const {
   if (set.empty()) return 0;
   std::vector<double> gains;
   for (const double strength : kMemberStrengths) gains.push_back(gain(set, strength));
-  return base::log_mean_exp(gains) + log_prior(set.size(), library_.causes.size());
+  return base::log_mean_exp(gains) +
+         log_prior(set.size(), library_.causes.size(), std::isfinite(changes_.freedom));
 }
 
 std::optional<RecordingFit> settled(const RecordingModel& recording, const JointPrior& prior,
@@ -221,7 +223,7 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
   if (!nominal) throw cannot_follow(recording.recording());
   if (!first) first = nominal;
   result.none = nominal->linear;
-  const double none = prior.of_changes(nominal->linear).value;
+  const double none = prior.of_changes(nominal->linear).evidence();
   const SetEvidence about_first(prior.of_changes(first->linear), library);
   Scores scores;
   std::map<CauseSet, RecordingFit> fits;

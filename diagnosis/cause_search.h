@@ -38,7 +38,7 @@ class SetEvidence {
   SetEvidence(Likelihood changes, const CauseLibrary& library) : changes_(std::move(changes)), library_(library) {}
 
   /// Up to a constant that all sets and all linearisations of a recording share.
-  [[nodiscard]] double operator()(const CauseSet& set) const { return changes_.value + gain(set); }
+  [[nodiscard]] double operator()(const CauseSet& set) const { return changes_.evidence() + gain(set); }
   /// Over that of no cause.
   [[nodiscard]] double gain(const CauseSet& set) const;
 

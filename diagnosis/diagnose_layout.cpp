@@ -74,24 +74,30 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
   answer.remarks = recordings.recording.remarks;
   const Diagnosis empty = answer;
   // Why the recording is not judged so; empty: it is.
-  const auto judge = [&](const CauseLibrary& library, ModelSource&& source) -> std::string {
+  const auto judge = [&](const auto& find) -> std::string {
     try {
-      find_causes(request, recordings, library, source, progress, answer);
+      find();
       return {};
     } catch (const std::invalid_argument& error) {
       answer = empty;
       return error.what();
     }
   };
+  // An excluded name that is no cause is the caller's fault.
+  const CauseLibrary library = causes_of(request.layout, recordings.recording, request.excluded);
   std::string reason = "asked for (--steady)";
   if (!request.is_steady) {
-    // An excluded name that is no cause is the caller's fault.
-    const CauseLibrary library = causes_of(request.layout, recordings.recording, request.excluded);
-    reason = judge(library, FilteredSource(request.layout, library, base::threads_or_cores(request.threads)));
+    reason = judge([&] {
+      FilteredSource source(request.layout, library, base::threads_or_cores(request.threads));
+      find_causes(request, recordings, library, source, progress, answer);
+    });
   }
   if (!reason.empty()) {
-    const CauseLibrary library = steady_causes_of(request.layout, recordings.recording, request.excluded);
-    const std::string why_not = judge(library, SteadySource(request.layout, library));
+    const std::string why_not = judge([&] {
+      const CauseLibrary told = steady_causes_of(request.layout, recordings.recording, request.excluded);
+      SteadySource source(request.layout, told);
+      find_causes(request, recordings, told, source, progress, answer);
+    });
     answer.remarks.push_back("judged by mean forces over steady stretches alone: " + reason);
     if (!why_not.empty()) {
       answer.verdict = gap::Verdict::unknown;

@@ -52,7 +52,7 @@ Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
   Member member{cause, {}, 0, std::numeric_limits<double>::infinity()};
   for (const ScoredSet& one : sets) {
     const double behind_nats = sets.front().log_odds - one.log_odds;
-    if (behind_nats >= kClass_nats) break;
+    if (behind_nats >= evidence.bank.leads.class_nats) break;
     std::vector<std::size_t> differing;
     std::set_symmetric_difference(one.causes.begin(), one.causes.end(), best.begin(), best.end(),
                                   std::back_inserter(differing));
@@ -209,6 +209,11 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
+/// The most probable set that has an effect.
+auto first_with_causes(const std::vector<ScoredSet>& sets) {
+  return std::find_if(sets.begin(), sets.end(), [](const ScoredSet& one) { return !one.causes.empty(); });
+}
+
 /// Lead that makes a gap, in addition to what nominal recordings have by chance.
 double gap_nats(const NominalBank& bank) { return bank.leads.gap_nats * (bank.powers.size() == 1 ? 2 : 1); }
 
@@ -216,6 +221,7 @@ double gap_nats(const NominalBank& bank) { return bank.leads.gap_nats * (bank.po
 double expected_gain(const LayoutEvidence& evidence, std::size_t cause, Eigen::Index column, double size) {
   Likelihood changes = evidence.found.changes;
   changes.score = changes.information.col(column) * size;
+  changes.value = changes.norm - changes.score[column] * size / 2;
   return SetEvidence(std::move(changes), evidence.library).gain({cause});
 }
 
@@ -307,19 +313,24 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const bool has_floor = !bank.powers.empty();
   const Floor floor = bank.floor();
   const auto louder = has_floor ? louder_channels(after, bank.powers) : std::vector<gap::WhereEntry>{};
-  const bool is_loud = has_floor && after.mean_square > floor.limit(kNominalPowerFactor);
-  const bool was_loud = is_loud || (has_floor && before > floor.limit(kNominalPowerFactor));
+  const double most_power = bank.leads.most_power.value_or(floor.limit(kNominalPowerFactor));
+  const bool is_loud = has_floor && after.mean_square > most_power;
+  const bool was_loud = is_loud || (has_floor && before > most_power);
   double gain_nats = best.log_odds;
   for (const ScoredSet& one : found.sets) {
     if (one.causes.empty()) gain_nats -= one.log_odds;
   }
   double chance_nats = 0;
   for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, bank.chance_nats[cause]);
-  if (louder.empty() && !was_loud && gain_nats < gap_nats(bank) + chance_nats) {
+  const bool leads = !best.causes.empty() && gain_nats >= gap_nats(bank) + chance_nats;
+  if (louder.empty() && !was_loud && !leads) {
     answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();
-    const bool is_faint = gain_nats >= kFaint_nats;
-    const std::string but = is_faint ? " but for a faint lead of " + library.causes[best.causes[0]].words() : "";
+    const auto rival = first_with_causes(found.sets);
+    const bool is_faint =
+        rival != found.sets.end() && gain_nats + rival->log_odds - best.log_odds >= bank.leads.faint_nats;
+    const std::string but =
+        is_faint ? " but for a faint lead of " + library.causes[rival->causes.front()].words() : "";
     answer.sentence = "No effect stands out; without nominal recordings (--nominal) a gap cannot be ruled out.";
     if (has_floor) {
       answer.sentence = fmt::format("Nothing exceeds what nominal recordings show{}.", but);
@@ -329,8 +340,7 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     return;
   }
   if (best.causes.empty()) {
-    const auto leading = std::find_if(found.sets.begin(), found.sets.end(),
-                                      [](const ScoredSet& one) { return !one.causes.empty(); });
+    const auto leading = first_with_causes(found.sets);
     const auto closed = leading == found.sets.end() ? std::nullopt : closure(leading->causes).closed;
     if (!louder.empty() || closed.value_or(0) < gap::kClosedFrom)
       return say_unknown(gap::UnknownKind::outside, {}, louder, answer);

@@ -59,10 +59,12 @@ inline constexpr double kClass_nats = 5;
 /// A smaller lead, of odds of 20 to 1, is said: simulated nominal recordings of 30 s have up to 13 nats.
 /// Beside one nominal recording twice as many: it tells nothing of the scatter between recordings.
 inline constexpr double kGap_nats = 10, kFaint_nats = 3;
-/// The same two of mean forces over steady stretches (SteadyRecording): a probability of 0.8, as of short runs.
-/// The scatter between nominal recordings is in the evidence, and there are few numbers, not the many readings of
-/// a filter.
-inline constexpr double kSteadyGap_nats = 1.4, kSteadyNamed_nats = 1.4;
+/// The same three of mean forces over steady stretches (SteadyRecording). The scatter between nominal recordings
+/// is in the evidence, with the tails of Student's t, so a set that is more probable than no effect is a gap; a
+/// cause is told from another with a probability of 0.8.
+inline constexpr double kSteadyGap_nats = 0, kSteadyNamed_nats = 0, kSteadyClass_nats = 1.4;
+/// Recordings that count for the independence of a scatter's axes.
+inline constexpr double kAxesWeight = 4;
 /// A cause is named only if one of its parameters is so many standard errors from zero.
 inline constexpr double kLeastPresence_sigma = 2;
 

@@ -100,11 +100,6 @@ Likelihood shared_by(std::span<const Likelihood> recordings, const ColumnScatter
   return sum;
 }
 
-ColumnScatter widened(ColumnScatter scatter, double session_factor) {
-  scatter.session *= session_factor;
-  return scatter;
-}
-
 }  // namespace
 
 ColumnScatter scatter_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds) {
@@ -167,7 +162,6 @@ Floor NominalBank::floor() const {
 NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<const RecordedMotion> recordings,
                     const RecordedMotion& alone, const Progress& progress) {
   NominalBank bank;
-  bank.leads = source.leads(recordings.size());
   bank.chance_nats.assign(library.causes.size(), 0);
   const std::span<const RecordedMotion> all = recordings.empty() ? std::span(&alone, 1) : recordings;
   std::vector<std::unique_ptr<RecordingModel>> models;
@@ -175,6 +169,11 @@ NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<
   std::vector<Eigen::VectorXd> at(all.size(), Eigen::VectorXd::Zero(library.columns()));
   std::vector<Likelihood> linear(all.size());
   ColumnScatter scatter = scatter_of(library, identify::nuisance_stds(alone));
+  const bool has_scatter = source.leads().has_scatter;
+  if (has_scatter) {
+    scatter.vehicle.setConstant(kAbsent);
+    scatter.session.setConstant(kAbsent);
+  }
   for (std::size_t round = 0; round < kNominalRounds; ++round) {
     progress(static_cast<double>(round) / kNominalRounds);
     source.refine(round, at);
@@ -184,19 +183,19 @@ NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<
       linear[i] = std::move(fit->linear);
     }
     // A recording alone may have a gap: it tells nothing of the vehicle without one.
+    bank.leads = source.leads();
     if (recordings.empty()) {
       bank.prior = prior_from({}, scatter);
       return bank;
     }
-    scatter = scatter_among(library, linear, scatter);
-    bank.prior = prior_from(linear, widened(scatter, bank.leads.session_factor));
+    if (!has_scatter) scatter = scatter_among(library, linear, scatter);
+    bank.prior = prior_from(linear, scatter);
     for (std::size_t i = 0; i < all.size(); ++i) at[i] = bank.prior.posterior_mean(linear[i]);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<Likelihood> others = linear;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const SetEvidence evidence(
-        prior_from(others, widened(scatter, bank.leads.session_factor)).of_changes(linear[i]), library);
+    const SetEvidence evidence(prior_from(others, scatter).of_changes(linear[i]), library);
     for (std::size_t cause = 0; cause < library.causes.size(); ++cause)
       bank.chance_nats[cause] = std::max(bank.chance_nats[cause], evidence.gain({cause}));
     if (auto power = models[i]->power(models[i]->own_departures(bank.prior, linear[i])))

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/limits.h"
 
@@ -18,9 +19,14 @@ Eigen::LLT<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& information, const 
 
 }  // namespace
 
+double Likelihood::evidence() const {
+  if (std::isinf(freedom)) return value;
+  return norm - (freedom + 1) / 2 * std::log1p(2 * std::max(norm - value, 0.0) / freedom);
+}
+
 Likelihood Likelihood::about(const Eigen::VectorXd& at) const {
   const Eigen::VectorXd image = information * at;
-  return {information, score - image, value + score.dot(at) - at.dot(image) / 2};
+  return {information, score - image, value + score.dot(at) - at.dot(image) / 2, norm, freedom};
 }
 
 Likelihood Likelihood::blurred(const Eigen::MatrixXd& root) const {
@@ -28,18 +34,20 @@ Likelihood Likelihood::blurred(const Eigen::MatrixXd& root) const {
   // With F F^T the factored matrix: |F^-1 root^T (score - information x)|^2 / 2 is added.
   const Eigen::VectorXd of_score = factor.matrixL().solve(root.transpose() * score);
   const Eigen::MatrixXd of_information = factor.matrixL().solve(root.transpose() * information);
+  const double log_root = factor.matrixLLT().diagonal().array().log().sum();
   return {information - of_information.transpose() * of_information, score - of_information.transpose() * of_score,
-          value + of_score.squaredNorm() / 2 - factor.matrixLLT().diagonal().array().log().sum()};
+          value + of_score.squaredNorm() / 2 - log_root, norm - log_root, freedom};
 }
 
 Likelihood Likelihood::of(const std::vector<Eigen::Index>& columns) const {
-  return {information(columns, columns), score(columns), value};
+  return {information(columns, columns), score(columns), value, norm, freedom};
 }
 
 Likelihood& Likelihood::operator+=(const Likelihood& other) {
   information += other.information;
   score += other.score;
   value += other.value;
+  norm += other.norm;
   return *this;
 }
 
@@ -96,7 +104,8 @@ std::optional<RecordingFit> FittedRecording::fit(const Eigen::VectorXd& at) cons
   }();
   if (!here) return std::nullopt;
   const Eigen::VectorXd inside = values - filter_.start();
-  const Likelihood linear{here->information(), here->score(), -(here->power + here->log_det) / 2};
+  const Likelihood linear{here->information(), here->score(), -(here->power + here->log_det) / 2,
+                          -here->log_det / 2};
   return RecordingFit{linear.about(-inside), inside};
 }
 
@@ -154,6 +163,6 @@ std::unique_ptr<RecordingModel> FilteredSource::compared(const identify::Recorde
   return made;
 }
 
-Leads FilteredSource::leads(std::size_t) const { return {kGap_nats, kNamed_nats, 1}; }
+Leads FilteredSource::leads() const { return {kGap_nats, kNamed_nats, kClass_nats, kFaint_nats, {}, false}; }
 
 }  // namespace navcal::diagnosis

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +22,13 @@ struct Likelihood {
   Eigen::MatrixXd information;
   Eigen::VectorXd score;
   double value = 0;
+  double norm = 0;  ///< `value` where nothing departs; up to a constant of the recording
+  /// Of Student's t in place of the normal distribution, where the variances are themselves estimates.
+  double freedom = std::numeric_limits<double>::infinity();
+
+  /// Log evidence of x = 0: `value`, or by Student's t
+  ///   norm - (freedom + 1) / 2 log(1 + 2 (norm - value) / freedom).
+  [[nodiscard]] double evidence() const;
 
   /// The same as a function of x - at.
   [[nodiscard]] Likelihood about(const Eigen::VectorXd& at) const;
@@ -68,10 +76,14 @@ struct RecordingPower {
   std::vector<double> readings;  ///< behind them
 };
 
-/// Leads over the other sets of causes that a verdict needs beyond what nominal recordings have by chance, nats.
+/// What a verdict needs.
 struct Leads {
-  double gap_nats = 0, named_nats = 0;
-  double session_factor = 1;  ///< on the scatter between recordings, which few nominal ones underestimate
+  /// Leads over the other sets of causes beyond what nominal recordings have by chance, nats; the one that tells a
+  /// cause from another in its place; and the one over no cause that is said where it makes no gap.
+  double gap_nats = 0, named_nats = 0, class_nats = 0, faint_nats = 0;
+  /// Power above which a recording is not like the nominal ones; absent: by the scatter of theirs.
+  std::optional<double> most_power;
+  bool has_scatter = false;  ///< the likelihoods have the scatter between recordings in them
 };
 
 /// A recording as evidence about the vehicle and its instruments.
@@ -108,7 +120,8 @@ class ModelSource {
   /// A recording that is compared with a nominal vehicle of these departures.
   [[nodiscard]] virtual std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                                  const Eigen::VectorXd& nominal) const = 0;
-  [[nodiscard]] virtual Leads leads(std::size_t nominals) const = 0;
+  /// Once the nominal models are refined.
+  [[nodiscard]] virtual Leads leads() const = 0;
 };
 
 /// Values of the fit at some departures from `start`, within the bounds of the library's parameters.
@@ -161,7 +174,7 @@ class FilteredSource final : public ModelSource {
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const override;
-  [[nodiscard]] Leads leads(std::size_t nominals) const override;
+  [[nodiscard]] Leads leads() const override;
 
  private:
   const config::Layout& layout_;

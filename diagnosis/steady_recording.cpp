@@ -2,14 +2,17 @@
 #include "diagnosis/steady_recording.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
+#include <numeric>
+#include <set>
+#include <utility>
 
 #include "base/statistics.h"
-#include "diagnosis/limits.h"
 #include "identify/data/gridded.h"
 #include "identify/replay/replayed_motion.h"
 #include "sim/layout/layout_vehicle.h"
@@ -29,8 +32,8 @@ constexpr std::size_t kFewestStretches = 5;
 constexpr double kIdleShare = 0.3;
 /// A stretch is apart from the others by so many standard deviations, from the median absolute deviation.
 constexpr double kApart_sigma = 4;
-/// Stretches that follow each other are not independent: their number counts by this factor.
-constexpr double kIndependentShare = 0.5;
+/// Bounds of the correlation of neighbours, beyond which few of them tell nothing.
+constexpr double kLeastAlike = -0.5, kMostAlike = 0.8;
 /// Standard deviations of what is not measured: a tilt, a velocity (a current, where it is over the bottom), a
 /// rate.
 constexpr double kUnknownTilt_rad = 0.1, kUnknownVelocity_m_s = 0.2, kUnknownRate_rad_s = 0.05;
@@ -44,6 +47,17 @@ Vector6 least_errors(const config::Layout& layout) {
   const auto size_m = Eigen::Map<const Eigen::Vector3d>(layout.body.size_m.data());
   least.tail<3>().setConstant(kLeastError * weight_N * size_m.maxCoeff() / 2);
   return least;
+}
+
+/// Number of independent values that tell as much of their mean as these, which follow one another:
+/// n (1 - r) / (1 + r), r the correlation of neighbours. A row for each of several quantities that share it.
+double effective_number(const Eigen::MatrixXd& values, double least_alike) {
+  const Eigen::MatrixXd apart = values.colwise() - values.rowwise().mean();
+  const Eigen::Index pairs = apart.cols() - 1;
+  const double alike = apart.leftCols(pairs).cwiseProduct(apart.rightCols(pairs)).sum() /
+                       std::max(apart.squaredNorm(), std::numeric_limits<double>::min());
+  const double correlation = std::clamp(alike, least_alike, kMostAlike);
+  return static_cast<double>(apart.cols()) * (1 - correlation) / (1 + correlation);
 }
 
 /// Sum of the sizes of all thrusts at rest, N.
@@ -71,15 +85,38 @@ SteadyRecording::SteadyRecording(const config::Layout& layout, const CauseLibrar
     throw std::invalid_argument(fmt::format("{}: {} steady stretches of {:.0f} s; at least {} are needed",
                                             recording.name, stretches_.size(), kStretch_s, kFewestStretches));
   const Balances all = balances(layout_);
-  const auto count = static_cast<double>(all.cols());
   const Vector6 mean = all.rowwise().mean();
-  const Vector6 scatter = (all.colwise() - mean).rowwise().squaredNorm() / (count - 1);
+  Vector6 scatter = (all.colwise() - mean).rowwise().squaredNorm() / static_cast<double>(all.cols() - 1);
+  for (Eigen::Index i = 0; i < 6; ++i) scatter[i] /= effective_number(all.row(i), kLeastAlike);
   Eigen::MatrixXd shared = least_errors(layout_).cwiseAbs2().asDiagonal();
   for (const MotionError& error : unmeasured()) {
     const Vector6 moved = mean_balance(layout_, error) - mean;
     shared += moved * moved.transpose();
   }
-  covariance_.compute(shared + Eigen::MatrixXd((scatter / (kIndependentShare * count)).asDiagonal()));
+  own_covariance_ = shared + Eigen::MatrixXd(scatter.asDiagonal());
+  covariance_.compute(own_covariance_);
+}
+
+void SteadyRecording::compare_with(const NominalBalances& nominal) {
+  nominal_ = nominal.mean;
+  const Eigen::VectorXd beyond = (own_covariance_.diagonal() - nominal.errors).cwiseMax(0);
+  covariance_.compute((1 + 1 / nominal.effective) * nominal.scatter + Eigen::MatrixXd(beyond.asDiagonal()));
+  freedom_ = nominal.freedom();
+}
+
+Eigen::MatrixXd SteadyRecording::usual_scatter() const {
+  const Eigen::VectorXd start = values_at(Eigen::VectorXd::Zero(library_.columns()));
+  const Vector6 here = balance();
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(6, 6);
+  for (const Cause& cause : library_.causes) {
+    for (const CauseParameter& parameter : cause.parameters) {
+      if (parameter.is_one_sided()) continue;
+      const Vector6 moved =
+          slope(start, here, parameter.column) * kUsualTolerance * parameter.typical * parameter.per_unit;
+      scatter += moved * moved.transpose();
+    }
+  }
+  return scatter;
 }
 
 void SteadyRecording::find_stretches() {
@@ -165,7 +202,16 @@ Eigen::VectorXd SteadyRecording::values_at(const Eigen::VectorXd& at) const {
 }
 
 config::Layout SteadyRecording::layout_with(const Eigen::VectorXd& values) const {
-  return identify::with_values(layout_, library_.parameters, values.head(std::ssize(library_.parameters)));
+  Eigen::VectorXd others = values.head(std::ssize(library_.parameters));
+  std::vector<double> factors(layout_.thrusters.size(), 1);
+  for (const Cause& cause : library_.causes) {
+    if (cause.name != "thrust_scale") continue;
+    double& scale = others[cause.parameters.front().column];
+    factors[std::stoul(cause.of.substr(cause.of.find('.') + 1)) - 1] += std::exchange(scale, 0);
+  }
+  config::Layout changed = identify::with_values(layout_, library_.parameters, others);
+  for (std::size_t i = 0; i < factors.size(); ++i) changed.thrusters[i].force_scale *= factors[i];
+  return changed;
 }
 
 SteadyRecording::Balances SteadyRecording::balances(const config::Layout& layout, const MotionError& error) const {
@@ -189,32 +235,33 @@ SteadyRecording::Balances SteadyRecording::balances(const config::Layout& layout
   return all;
 }
 
+Vector6 SteadyRecording::slope(const Eigen::VectorXd& at, const Vector6& here, Eigen::Index column) const {
+  const identify::Parameter& parameter = library_.parameters[static_cast<std::size_t>(column)];
+  double step = parameter.step > 0 ? parameter.step : kEffectStep * parameter.prior_std;
+  if (at[column] + step > parameter.high) step = -step;
+  Eigen::VectorXd moved = at;
+  moved[column] += step;
+  return (mean_balance(layout_with(moved)) - here) / step;
+}
+
 std::optional<RecordingFit> SteadyRecording::fit(const Eigen::VectorXd& at) const {
   const Eigen::VectorXd values = values_at(at);
-  const Vector6 here = mean_balance(layout_with(values));
   Eigen::MatrixXd white = Eigen::MatrixXd::Zero(6, values.size() + 1);
-  white.rightCols<1>() = here;
-  for (std::size_t i = 0; i < library_.parameters.size(); ++i) {
-    const identify::Parameter& parameter = library_.parameters[i];
-    const auto column = static_cast<Eigen::Index>(i);
-    double step = parameter.step > 0 ? parameter.step : kEffectStep * parameter.prior_std;
-    if (values[column] + step > parameter.high) step = -step;
-    Eigen::VectorXd moved = values;
-    moved[column] += step;
-    white.col(column) = (mean_balance(layout_with(moved)) - here) / step;
-  }
+  const Vector6 here = mean_balance(layout_with(values));
+  white.rightCols<1>() = here - nominal_;
+  for (Eigen::Index i = 0; i < std::ssize(library_.parameters); ++i) white.col(i) = slope(values, here, i);
   covariance_.matrixL().solveInPlace(white);
   const auto jacobian = white.leftCols(values.size());
   const Vector6 residual = white.rightCols<1>();
-  const double log_det = 2 * covariance_.matrixLLT().diagonal().array().log().sum();
   const Likelihood linear{jacobian.transpose() * jacobian, -jacobian.transpose() * residual,
-                          -(residual.squaredNorm() + log_det) / 2};
+                          -residual.squaredNorm() / 2, 0, freedom_};
   const Eigen::VectorXd inside = values - values_at(Eigen::VectorXd::Zero(at.size()));
   return RecordingFit{linear.about(-inside), inside};
 }
 
 std::optional<RecordingPower> SteadyRecording::power(const Eigen::VectorXd& at) const {
-  const Eigen::MatrixXd white = covariance_.matrixL().solve(balances(layout_with(values_at(at))));
+  const Eigen::MatrixXd white =
+      covariance_.matrixL().solve(balances(layout_with(values_at(at))).colwise() - nominal_);
   const Vector6 mean = white.rowwise().mean();
   RecordingPower power;
   power.mean_square = mean.squaredNorm() / 6;
@@ -235,14 +282,74 @@ CauseLibrary steady_causes_of(const config::Layout& layout, const identify::Reco
   std::erase_if(library.causes, [&](const Cause& cause) {
     return cause.is_instrument || std::find(kUntold.begin(), kUntold.end(), cause.name) != kUntold.end();
   });
+  const SteadyRecording alone(layout, library, recording);
+  const auto here = alone.fit(Eigen::VectorXd::Zero(library.columns()));
+  std::set<std::string> hidden;
+  std::erase_if(library.causes, [&](const Cause& cause) {
+    const bool is_hidden = std::ranges::none_of(cause.parameters, [&](const CauseParameter& parameter) {
+      const double size = kMemberStrengths.back() * parameter.typical * parameter.per_unit;
+      return here->linear.information(parameter.column, parameter.column) * size * size > 1;
+    });
+    if (is_hidden) hidden.insert(cause.words());
+    return is_hidden;
+  });
+  if (!hidden.empty())
+    library.not_judged.push_back(fmt::format("no mean force shows {}", fmt::join(hidden, ", ")));
   return library;
 }
 
-Leads SteadySource::leads(std::size_t nominals) const {
-  // Student's t in place of the normal distribution, where they leave 5 %.
-  const double freedom = static_cast<double>(std::max<std::size_t>(nominals, 2) - 1);
-  const double t = boost::math::quantile(boost::math::students_t_distribution<>(freedom), 0.975);
-  return {kSteadyGap_nats, kSteadyNamed_nats, t / 1.96};
+NominalBalances nominal_balances(const Eigen::MatrixXd& balances, const Eigen::MatrixXd& errors,
+                                 const Eigen::MatrixXd& usual) {
+  NominalBalances nominal{balances.rowwise().mean(), errors + usual, errors.diagonal()};
+  if (balances.cols() < 2) return nominal;
+  const Eigen::MatrixXd apart = balances.colwise() - nominal.mean;
+  const Eigen::VectorXd sizes = nominal.scatter.diagonal().cwiseSqrt();
+  nominal.effective = std::max(effective_number(sizes.cwiseInverse().asDiagonal() * apart, 0), 2.0);
+  const double freedom = nominal.effective - 1;
+  const Eigen::MatrixXd seen = apart * apart.transpose() / static_cast<double>(apart.cols() - 1);
+  const Eigen::MatrixXd axes = seen.diagonal().asDiagonal();
+  const Eigen::MatrixXd shrunk = (freedom * seen + kAxesWeight * axes) / (freedom + kAxesWeight);
+  nominal.scatter = (freedom * shrunk + kToleranceWeight * nominal.scatter) / (freedom + kToleranceWeight);
+  return nominal;
+}
+
+std::unique_ptr<RecordingModel> SteadySource::nominal(const identify::RecordedMotion& recording) {
+  auto made = std::make_unique<SteadyRecording>(layout_, library_, recording);
+  nominals_.push_back(made.get());
+  return made;
+}
+
+void SteadySource::refine(std::size_t round, std::span<const Eigen::VectorXd>) {
+  if (round > 0) return;
+  const std::size_t count = nominals_.size();
+  Eigen::MatrixXd balances(6, count), errors = Eigen::MatrixXd::Zero(6, 6);
+  for (std::size_t i = 0; i < count; ++i) {
+    balances.col(static_cast<Eigen::Index>(i)) = nominals_[i]->balance();
+    errors += nominals_[i]->own_covariance() / static_cast<double>(count);
+  }
+  const Eigen::MatrixXd usual = nominals_.front()->usual_scatter();
+  balances_ = nominal_balances(balances, errors, usual);
+  std::vector<Eigen::Index> others(count - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    // Each by the others, as another recording will be.
+    std::iota(others.begin(), others.end(), 0);
+    for (std::size_t k = i; k < others.size(); ++k) ++others[k];
+    nominals_[i]->compare_with(count < 2 ? balances_
+                                         : nominal_balances(balances(Eigen::all, others), errors, usual));
+  }
+}
+
+std::unique_ptr<RecordingModel> SteadySource::compared(const identify::RecordedMotion& recording,
+                                                       const Eigen::VectorXd&) const {
+  auto made = std::make_unique<SteadyRecording>(layout_, library_, recording);
+  made->compare_with(balances_);
+  return made;
+}
+
+Leads SteadySource::leads() const {
+  const boost::math::fisher_f_distribution<> chance(6, balances_.freedom());
+  const double most = boost::math::quantile(boost::math::complement(chance, kNominalChance));
+  return {kSteadyGap_nats, kSteadyNamed_nats, kSteadyClass_nats, -kSteadyClass_nats, most, true};
 }
 
 }  // namespace navcal::diagnosis

@@ -3,11 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "diagnosis/limits.h"
 #include "diagnosis/recording_fit.h"
 #include "identify/data/actuator_inputs.h"
 #include "sim/vehicle/body.h"
@@ -19,6 +21,24 @@ struct MotionError {
   Eigen::Vector3d euler_rad = Eigen::Vector3d::Zero();
   sim::Vector6 velocity = sim::Vector6::Zero();
 };
+
+/// Mean balances of the nominal recordings of a vehicle, N and Nm.
+struct NominalBalances {
+  sim::Vector6 mean = sim::Vector6::Zero();               ///< what the layout leaves out of every recording
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(6, 6);  ///< covariance of one recording about it
+  sim::Vector6 errors = sim::Vector6::Zero();             ///< variances of the errors within one
+  /// Recordings that would tell as much if none were like its neighbour.
+  double effective = 1;
+
+  /// Of the scatter.
+  [[nodiscard]] double freedom() const { return effective - 1 + kToleranceWeight; }
+};
+/// `balances`: one column for each recording, in the order in which they were made. `errors`: mean covariance of
+/// the errors within one; `usual`: scatter by usual tolerances. The scatter is the mean of what is seen, of the
+/// same without correlations of the axes (counting as kAxesWeight recordings) and of errors and usual tolerances
+/// (as kToleranceWeight).
+[[nodiscard]] NominalBalances nominal_balances(const Eigen::MatrixXd& balances, const Eigen::MatrixXd& errors,
+                                               const Eigen::MatrixXd& usual);
 
 /// A recording by the balance of its mean forces and moments over steady stretches: with a layout that is true,
 ///   r = mean of (tau(nu, down, actuators) - C nu) - M (nu_end - nu_begin) / T = 0.
@@ -33,6 +53,14 @@ class SteadyRecording final : public RecordingModel {
   /// Throws std::invalid_argument in words when commands are missing or fewer than five stretches are left.
   SteadyRecording(const config::Layout& layout, const CauseLibrary& library,
                   const identify::RecordedMotion& recording);
+
+  /// From here on balances are compared with these.
+  void compare_with(const NominalBalances& nominal);
+  /// Mean balance of the layout, N and Nm.
+  [[nodiscard]] sim::Vector6 balance() const { return mean_balance(layout_); }
+  /// Scatter of the balance by usual tolerances of the causes.
+  [[nodiscard]] Eigen::MatrixXd usual_scatter() const;
+  [[nodiscard]] const Eigen::MatrixXd& own_covariance() const { return own_covariance_; }
 
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
   /// Of the mean balance, in its standard errors; a block is the share of a stretch in it. No channel has
@@ -56,11 +84,15 @@ class SteadyRecording final : public RecordingModel {
   void find_stretches();
   [[nodiscard]] std::vector<MotionError> unmeasured() const;
   [[nodiscard]] Eigen::VectorXd values_at(const Eigen::VectorXd& at) const;
+  /// The effect thrust_scale leaves the torque as it is. What weakens a thruster takes its torque as well, so here
+  /// it scales both.
   [[nodiscard]] config::Layout layout_with(const Eigen::VectorXd& values) const;
   [[nodiscard]] Balances balances(const config::Layout& layout, const MotionError& error = {}) const;
   [[nodiscard]] sim::Vector6 mean_balance(const config::Layout& layout, const MotionError& error = {}) const {
     return balances(layout, error).rowwise().mean();
   }
+  /// Change of the mean balance with one parameter.
+  [[nodiscard]] sim::Vector6 slope(const Eigen::VectorXd& at, const sim::Vector6& here, Eigen::Index column) const;
   void leave_out_idle();
   void leave_out_apart();
 
@@ -69,11 +101,15 @@ class SteadyRecording final : public RecordingModel {
   const identify::RecordedMotion& recording_;
   identify::ActuatorInputs inputs_;
   std::vector<Stretch> stretches_;
-  Eigen::LLT<Eigen::MatrixXd> covariance_;  ///< of the mean balance
+  Eigen::MatrixXd own_covariance_;  ///< of the mean balance in this recording
+  sim::Vector6 nominal_ = sim::Vector6::Zero();
+  Eigen::LLT<Eigen::MatrixXd> covariance_;  ///< of the mean balance between recordings
+  double freedom_ = std::numeric_limits<double>::infinity();
 };
 
-/// Effects of a layout that mean forces can tell: those of actuators and of the hull at rest. Of an actuator the
-/// gain is one: the offset, the dead band and the gain of a steady command are not told apart.
+/// Effects of a layout that mean forces can tell: those of actuators and of the hull at rest that move the balance
+/// of this recording. Of an actuator the gain is one: the offset, the dead band and the gain of a steady command
+/// are not told apart. Throws as SteadyRecording does.
 [[nodiscard]] CauseLibrary steady_causes_of(const config::Layout& layout,
                                             const identify::RecordedMotion& recording,
                                             std::span<const std::string> excluded);
@@ -83,19 +119,17 @@ class SteadySource final : public ModelSource {
  public:
   SteadySource(const config::Layout& layout, const CauseLibrary& library) : layout_(layout), library_(library) {}
 
-  [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override {
-    return std::make_unique<SteadyRecording>(layout_, library_, recording);
-  }
-  void refine(std::size_t, std::span<const Eigen::VectorXd>) override {}
+  [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override;
+  void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
-                                                         const Eigen::VectorXd&) const override {
-    return std::make_unique<SteadyRecording>(layout_, library_, recording);
-  }
-  [[nodiscard]] Leads leads(std::size_t nominals) const override;
+                                                         const Eigen::VectorXd& nominal) const override;
+  [[nodiscard]] Leads leads() const override;
 
  private:
   const config::Layout& layout_;
   const CauseLibrary& library_;
+  std::vector<SteadyRecording*> nominals_;  ///< those that nominal() made
+  NominalBalances balances_;
 };
 
 }  // namespace navcal::diagnosis

@@ -33,7 +33,7 @@ struct Searched {
       bank.powers.back().of_channel.fill(one);
     }
     bank.chance_nats = {0, 0};
-    bank.leads = {kGap_nats, kNamed_nats};
+    bank.leads = {kGap_nats, kNamed_nats, kClass_nats, kFaint_nats, {}, false};
     found.sets = {{{0}, 40, 0.99}, {{1}, 10, 0.008}, {{}, 0, 0.002}};
     found.changes = {1e4 * Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d(1e4, 0), 0};
   }
@@ -179,7 +179,7 @@ TEST(LayoutVerdict, WithoutNominalRecordingsNothingIsNamed) {
   Searched searched;
   searched.bank = {};
   searched.bank.chance_nats = {0, 0};
-  searched.bank.leads = {kGap_nats, kNamed_nats};
+  searched.bank.leads = {kGap_nats, kNamed_nats, kClass_nats, kFaint_nats, {}, false};
   expect_unknown(searched,
                  "without nominal recordings (--nominal): the most probable candidate is first of "
                  "thruster.1, k 1 +- 0.01");
