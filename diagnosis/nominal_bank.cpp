@@ -174,8 +174,10 @@ NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<
     scatter.vehicle.setConstant(kAbsent);
     scatter.session.setConstant(kAbsent);
   }
-  for (std::size_t round = 0; round < kNominalRounds; ++round) {
-    progress(static_cast<double>(round) / kNominalRounds);
+  // Without tolerances to fit there is one.
+  const std::size_t rounds = has_scatter ? 1 : kNominalRounds;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    progress(static_cast<double>(round) / static_cast<double>(rounds));
     source.refine(round, at);
     for (std::size_t i = 0; i < all.size(); ++i) {
       auto fit = models[i]->fit(at[i]);

@@ -32,7 +32,7 @@ constexpr std::size_t kFewestStretches = 5;
 constexpr double kIdleShare = 0.3;
 /// A stretch is apart from the others by so many standard deviations, from the median absolute deviation.
 constexpr double kApart_sigma = 4;
-/// Bounds of the correlation of neighbours, beyond which few of them tell nothing.
+/// Bounds of the correlation of neighbours, which few of them tell only roughly.
 constexpr double kLeastAlike = -0.5, kMostAlike = 0.8;
 /// Standard deviations of what is not measured: a tilt, a velocity (a current, where it is over the bottom), a
 /// rate.

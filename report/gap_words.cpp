@@ -68,6 +68,7 @@ std::vector<std::string> further_remarks(const gap::Diagnosis& diagnosis) {
 }
 
 std::string nowhere_text(const gap::Diagnosis& diagnosis) {
+  if (diagnosis.map.empty() && diagnosis.gap.pooled.before > 0) return "In no channel alone.";
   return diagnosis.map.empty() ? "There was no comparison with the nominal vehicle."
                                : "Nowhere: no residuals differ significantly from those of the nominal vehicle.";
 }
