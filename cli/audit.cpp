@@ -2,6 +2,7 @@
 #include "analysis/audit/audit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -61,6 +62,8 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
     const analysis::Finding none{"convention", "Conventions", "all"};
     findings.push_back(none);
     findings.back().sentence = "Channels that can be compared agree in unit, sign and frame.";
+    if (!check.untold.empty())
+      findings.back().sentence += fmt::format(" This motion does not tell: {}.", fmt::join(check.untold, "; "));
     if (channels < 2) findings.back() = none.cannot("There are no two channels to compare.");
   }
   return findings;

@@ -76,7 +76,8 @@ std::string vehicle_check_json(const config::Layout& layout, const sim::Assessme
 }
 
 std::string conventions_json(const identify::ConventionCheck& found) {
-  VehicleJson out{{"conventions", VehicleJson::array()}, {"not_checked", found.not_checked}};
+  VehicleJson out{
+      {"conventions", VehicleJson::array()}, {"not_checked", found.not_checked}, {"untold", found.untold}};
   for (const identify::Convention& convention : found.found)
     out["conventions"].push_back({{"name", convention.name},
                                   {"what", convention.what},

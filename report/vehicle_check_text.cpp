@@ -88,6 +88,7 @@ std::string conventions_text(const identify::ConventionCheck& found) {
     out += fmt::format("{} of {} (probability {:.3f}): {}\n", convention.name, convention.what,
                        convention.probability, convention.sentence);
   for (const std::string& missing : found.not_checked) out += missing + "\n";
+  if (!found.untold.empty()) out += fmt::format("this motion does not tell: {}\n", fmt::join(found.untold, "; "));
   if (found.found.empty()) out += "no unit, sign or frame is wrong in what was checked\n";
   return out;
 }

@@ -21,6 +21,7 @@ constexpr double kSure = 0.9;
 constexpr double kSame = 1e-6;
 constexpr double kMended = 0.3;     ///< what is left of a residual's square where a convention explains it
 constexpr double kLongest_s = 600;  ///< of a recording: more tells no more
+constexpr double kTold_nats = 3;    ///< by which a convention's opposite has to be worse
 constexpr double kHour_s = 3600, kQuarter_s = 900;
 
 /// Channels and signals that lie whole quarters of an hour beside the others are moved there.
@@ -144,6 +145,18 @@ Gain gain_of(const std::vector<Agreement>& before, const std::vector<Agreement>&
   return all;
 }
 
+/// Suspects that would agree as well: the motion does not tell.
+std::vector<std::string> untold_by(const std::vector<Suspect>& suspects, const std::vector<Gain>& gains) {
+  std::vector<std::string> untold;
+  for (std::size_t i = 0; i < suspects.size(); ++i) {
+    const double nats = gains[i].nats - suspects[i].log_prior;
+    // What changes nothing at all is of a channel that is not measured.
+    if (!suspects[i].name.empty() && nats > -kTold_nats && std::abs(nats) > kSame)
+      untold.push_back(suspects[i].words);
+  }
+  return untold;
+}
+
 std::string not_checked_words(const RecordedMotion& motion, const Agreement& agreement) {
   std::string out;
   for (std::size_t r = 0; r < kRelations; ++r)
@@ -193,7 +206,10 @@ ConventionCheck check_conventions(const config::Layout& layout, std::vector<Reco
         of_part += weight;
     }
     const Gain& gain = gains[best];
-    if (of_name / sum < kSure || !gain.is_mended || suspects[best].name.empty()) break;
+    if (of_name / sum < kSure || !gain.is_mended || suspects[best].name.empty()) {
+      all.untold = untold_by(suspects, gains);
+      break;
+    }
     bench.mend(suspects[best]);
     before = bench.agreements({});
     const RelationDescription& relation = kRelationDescriptions[gain.relation];

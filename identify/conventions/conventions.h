@@ -21,6 +21,7 @@ struct Convention {
 struct ConventionCheck {
   std::vector<Convention> found;         ///< in the order in which they were mended; empty: nothing is wrong
   std::vector<std::string> not_checked;  ///< with what is missing, in words
+  std::vector<std::string> untold;       ///< errors with which the recordings agree as well: "rate_x reversed"
 };
 
 /// Whether channels agree with each other, and motion with commands by the layout: each known error of

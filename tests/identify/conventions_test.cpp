@@ -169,7 +169,20 @@ TEST(Conventions, AVehicleThatRestsTellsNothing) {
       reading.value = static_cast<Channel>(c) == Channel::force_z ? -9.81 : reading.value * 1e-3;
   for (auto& [name, signal] : motion.signals)
     std::fill(signal.values.begin(), signal.values.end(), signal.is_pulse ? 1500.0 : 0.0);
-  EXPECT_TRUE(checked(vehicle.prior, motion).found.empty());
+  const ConventionCheck check = checked(vehicle.prior, motion);
+  EXPECT_TRUE(check.found.empty());
+  EXPECT_EQ(std::ranges::count(check.untold, "rate_z reversed"), 1);
+}
+
+TEST(Conventions, WhatAMotionDoesNotTellIsSaid) {
+  const VehicleCase vehicle = vehicle_case("micro");
+  RecordedMotion motion = draw_recording(vehicle, vehicle.prior, 60, 64);
+  EXPECT_EQ(std::ranges::count(checked(vehicle.prior, motion).untold, "rate_z reversed"), 0);
+  // Without another measure of the turn, and with commands of which none turns it.
+  for (const Channel channel : {Channel::heading, Channel::second_yaw_rate}) of(motion, channel).clear();
+  motion.signals.clear();
+  EXPECT_EQ(std::ranges::count(checked(vehicle.prior, motion).untold, "heading reversed"), 0)
+      << "it is not measured";
 }
 
 TEST(Conventions, ADeadThrusterIsNoWrongOrder) {
