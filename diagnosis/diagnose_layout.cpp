@@ -46,6 +46,7 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
   };
   itself = with(found.sets.front().causes);
   answer.where = louder_channels(itself.before, bank.powers);
+  answer.where.insert(answer.where.end(), itself.before.apart.begin(), itself.before.apart.end());
   std::vector<ExplainedRecording> explained;
   if (!found.sets.front().causes.empty()) {
     for (const RecordedMotion& other : recordings.holdouts) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "diagnosis/causes.h"
+#include "gap/verdict/diagnosis.h"
 #include "identify/filter/noise_fit.h"
 
 namespace navcal::diagnosis {
@@ -72,8 +73,9 @@ struct RecordingPower {
   /// Of each channel; negative where it has no reading.
   std::array<double, identify::kChannels> of_channel{};
   std::array<double, identify::kChannels> readings_of_channel{};
-  std::vector<double> of_block;  ///< sums of squares of blocks of time
-  std::vector<double> readings;  ///< behind them
+  std::vector<double> of_block;        ///< sums of squares of blocks of time
+  std::vector<double> readings;        ///< behind them
+  std::vector<gap::WhereEntry> apart;  ///< what departs without being a channel
 };
 
 /// What a verdict needs.

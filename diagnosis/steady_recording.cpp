@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -260,8 +261,10 @@ std::optional<RecordingFit> SteadyRecording::fit(const Eigen::VectorXd& at) cons
 }
 
 std::optional<RecordingPower> SteadyRecording::power(const Eigen::VectorXd& at) const {
-  const Eigen::MatrixXd white =
-      covariance_.matrixL().solve(balances(layout_with(values_at(at))).colwise() - nominal_);
+  constexpr std::array kBalances{"surge force", "sway force",   "heave force",
+                                 "roll moment", "pitch moment", "yaw moment"};
+  const Balances apart = balances(layout_with(values_at(at))).colwise() - nominal_;
+  const Eigen::MatrixXd white = covariance_.matrixL().solve(apart);
   const Vector6 mean = white.rowwise().mean();
   RecordingPower power;
   power.mean_square = mean.squaredNorm() / 6;
@@ -270,6 +273,16 @@ std::optional<RecordingPower> SteadyRecording::power(const Eigen::VectorXd& at) 
     power.of_block.push_back(mean.dot(white.col(s)));
     power.readings.push_back(6);
   }
+  const Vector6 sigma = covariance_.reconstructedMatrix().diagonal().cwiseSqrt();
+  const boost::math::students_t_distribution<> chance(freedom_);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double size = std::abs(apart.row(i).mean());
+    const double p_value = 6 * 2 * boost::math::cdf(boost::math::complement(chance, size / sigma[i]));
+    if (p_value < kNominalChance)
+      power.apart.push_back({kBalances[static_cast<std::size_t>(i)], "whole recording", size, sigma[i],
+                             i < 3 ? "N" : "Nm", p_value});
+  }
+  std::ranges::sort(power.apart, {}, &gap::WhereEntry::p_value);
   return power;
 }
 

@@ -64,7 +64,7 @@ class SteadyRecording final : public RecordingModel {
 
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
   /// Of the mean balance, in its standard errors; a block is the share of a stretch in it. No channel has
-  /// readings.
+  /// readings: `apart` has the axes.
   [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const override;
   /// Those of the nominal vehicle: any balance can be had by departures within the tolerances.
   [[nodiscard]] Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood&) const override {

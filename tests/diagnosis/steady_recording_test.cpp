@@ -95,6 +95,9 @@ TEST(SteadyRecording, AWeakThrusterIsNamedWithItsSizeAlsoBehindTimeOnTheGround) 
     ASSERT_EQ(answer.effects.size(), 1U) << answer.sentence;
     EXPECT_EQ(answer.effects[0].name, "thrust_scale");
     EXPECT_EQ(answer.effects[0].of, "thruster.7");
+    ASSERT_FALSE(answer.where.empty());
+    EXPECT_EQ(answer.where[0].channel, "heave force");
+    EXPECT_EQ(answer.where[0].unit, "N");
     const auto& estimate = answer.effects[0].parameters.at(0);
     EXPECT_NEAR(estimate.value, -0.3, 3 * estimate.std_error);
     ASSERT_TRUE(answer.gap.pooled.closed);
