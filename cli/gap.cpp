@@ -133,6 +133,8 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (options.source.missions.size() > 1)
     throw std::invalid_argument(
         "several recordings together: not yet for a layout; diagnose one, and hold out others");
+  if (!options.without.empty())
+    throw std::invalid_argument("--without: not yet for a layout, whose diagnosis takes what the recording has");
   if (options.bank_missions != gap::Request{}.bank_missions)
     throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   diagnosis::LayoutFiles files{.recording = options.source.missions.front(),

@@ -213,14 +213,17 @@ void add_gap_trial(CLI::App& gap) {
                  "instead of the reference vehicle, vehicles by this layout, whose actuators are thrusters, up to "
                  "eight; repeatable, vehicles take them by turns")
       ->excludes("--places");
-  add_number(command, "--vehicles", 1, 1000, on.vehicles,
-             "number of vehicles; with --layout, like the next three");
+  add_number(command, "--vehicles", 1, 1000, on.vehicles, "number of vehicles; with --layout, like the next three")
+      ->needs("--layout");
   add_number(command, "--nominal", 1, 100, on.nominal,
-             "recordings without an effect, of each vehicle, by which it is identified");
+             "recordings without an effect, of each vehicle, by which it is identified")
+      ->needs("--layout");
   add_number(command, "--layout-error", 0.0, 0.2, on.layout_error,
-             "how far the vehicles are off their layouts, one standard deviation");
+             "how far the vehicles are off their layouts, one standard deviation")
+      ->needs("--layout");
   add_number(command, "--unmodelled", 0.0, 10.0, on.unmodelled,
-             "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell");
+             "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell")
+      ->needs("--layout");
   add_valued(command, "--arms", "LIST", options->arms,
              "only these arms: nulls, singles, pairs, triples, short, removed, ...")
       ->delimiter(',');

@@ -154,6 +154,7 @@ JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatte
 }
 
 Floor NominalBank::floor() const {
+  if (leads.has_scatter) return {1, 0, powers.size()};
   std::vector<double> of_recordings;
   for (const RecordingPower& one : powers) of_recordings.push_back(one.mean_square);
   return floor_of(of_recordings);
