@@ -28,8 +28,9 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
   answer.remarks.push_back(
       bank.powers.empty()
           ? std::string("no nominal recording was given (--nominal): there is no floor, and no cause is named")
-          : fmt::format("the floor is that of {} nominal recording{}", bank.powers.size(),
-                        bank.powers.size() == 1 ? "" : "s"));
+      : bank.powers.size() == 1 ? "the floor is that of 1 nominal recording, which does not show how recordings "
+                                  "differ: give more (--nominal)"
+                                : fmt::format("the floor is that of {} nominal recordings", bank.powers.size()));
   const auto compared = source.compared(recording, bank.prior.mean);
   const RecordingModel& mine = *compared;
   for (const std::string& oddity : mine.oddities()) answer.remarks.push_back(oddity);

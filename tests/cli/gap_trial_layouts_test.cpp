@@ -69,6 +69,13 @@ TEST_F(GapTrialLayouts, ANominalVehicleHasNoGap) {
   EXPECT_EQ(answer.at("verdict"), "no-gap") << answer.at("sentence");
   EXPECT_TRUE(answer.at("effects").empty());
   EXPECT_FALSE(answer.at("least_visible").empty());
+
+  ASSERT_EQ(run_navcal("gap --steady" + vehicle + "--nominal 1.cap --nominal 2.cap 3.cap"), 0) << said("err");
+  EXPECT_NE(said("out").find("no gap"), std::string::npos) << said("out");
+  EXPECT_NE(said("out").find("judged by mean forces over steady stretches alone"), std::string::npos)
+      << said("out");
+  EXPECT_NE(run_navcal("gap --without gyros" + vehicle + "--nominal 1.cap 3.cap"), 0) << "not ignored";
+  EXPECT_NE(said("err").find("--without: not yet for a layout"), std::string::npos) << said("err");
 }
 
 // The program under trial is told names of files and no more; what it cannot do is no answer.
@@ -96,6 +103,7 @@ TEST_F(GapTrialLayouts, WhatCannotBeIsSaid) {
   EXPECT_EQ(run_trial("bluerov2", "--cases 1 --arms triples"), 2);
   EXPECT_NE(said("err").find("there is no arm triples"), std::string::npos) << said("err");
   EXPECT_EQ(run_navcal("gap trial --cases 1 --minutes 5"), 2);
+  EXPECT_EQ(run_navcal("gap trial --cases 1 --vehicles 3"), 2) << "it would not be obeyed";
   EXPECT_EQ(run_navcal("gap trial --layout none.toml --cases 1"), 1);
 }
 
