@@ -133,15 +133,14 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (options.source.missions.size() > 1)
     throw std::invalid_argument(
         "several recordings together: not yet for a layout; diagnose one, and hold out others");
-  if (!options.without.empty())
-    throw std::invalid_argument("--without: not yet for a layout, whose diagnosis takes what the recording has");
   if (options.bank_missions != gap::Request{}.bank_missions)
     throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
                                .holdouts = {},
                                .nominals = {},
                                .settings = {},
-                               .window = options.window()};
+                               .window = options.window(),
+                               .without = quantities_of(options.without)};
   record::SeenRecordings seen;
   std::vector<std::string> repeated;
   (void)seen.see(files.recording);
@@ -217,7 +216,7 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
 
 void find_gap(const GapCommandOptions& options) {
   with_exit_statuses([&] {
-    expect_instruments(options.without);
+    (void)quantities_of(options.without);
     const std::vector<ExportFile> exports = expect_outputs(options);
     const gap::Diagnosis diagnosis =
         options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);

@@ -23,14 +23,6 @@ void expect_effects(const std::vector<std::string>& names) {
   }
 }
 
-void expect_instrument(const std::string& name) {
-  try {
-    static_cast<void>(gap::quantities_named(name));
-  } catch (const std::invalid_argument& error) {
-    throw base::Failure(base::Exit::usage, std::string("--without: ") + error.what());
-  }
-}
-
 }  // namespace
 
 std::filesystem::path usual_cache() {
@@ -43,8 +35,16 @@ std::filesystem::path usual_cache() {
   return {};
 }
 
-void expect_instruments(const std::vector<std::string>& names) {
-  for (const std::string& name : names) expect_instrument(name);
+std::vector<gap::Quantity> quantities_of(const std::vector<std::string>& instruments) {
+  std::vector<gap::Quantity> all;
+  try {
+    for (const std::string& name : instruments) {
+      for (const gap::Quantity one : gap::quantities_named(name)) all.push_back(one);
+    }
+  } catch (const std::invalid_argument& error) {
+    throw base::Failure(base::Exit::usage, std::string("--without: ") + error.what());
+  }
+  return all;
 }
 
 std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
@@ -62,10 +62,7 @@ gap::Request gap_request_of(const GapRequestOptions& options) {
   if (!options.source.config.empty()) request.settings = config::load(options.source.config);
   request.excluded = options.source.excluded;
   request.window = options.window();
-  for (const std::string& name : options.without) {
-    const auto quantities = gap::quantities_named(name);
-    request.without.insert(request.without.end(), quantities.begin(), quantities.end());
-  }
+  request.without = quantities_of(options.without);
   request.field_uT = options.where.field_uT();
   request.cache = options.cache.empty() ? usual_cache() : options.cache;
   request.bank_missions = options.bank_missions;

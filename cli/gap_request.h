@@ -37,7 +37,7 @@ void add_gap_request(CLI::App& command, GapRequestOptions& options);
 /// The request for a vehicle without a layout. Throws config::Error, base::Failure.
 [[nodiscard]] gap::Request gap_request_of(const GapRequestOptions& options);
 
-/// Throws base::Failure (usage) for a name of --without that is no instrument.
-void expect_instruments(const std::vector<std::string>& names);
+/// What instruments of --without measure. Throws base::Failure (usage) for a name that is none.
+[[nodiscard]] std::vector<gap::Quantity> quantities_of(const std::vector<std::string>& instruments);
 
 }  // namespace navcal::cli

@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "base/parallel.h"
@@ -66,6 +70,17 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
   write_verdict({library, bank, found, itself.after, explained, closure, itself.before.mean_square}, answer);
 }
 
+void leave_out(std::span<const gap::Quantity> quantities, RecordedMotion& motion) {
+  using enum gap::Quantity;
+  constexpr std::array<std::optional<gap::Quantity>, identify::kChannels> kMeasured{
+      rates, rates, rates, second_yaw_rate, force, force, force, tilt, tilt, heading, depth, depth, {}, {}, {},
+      {},    {},    {},    fixes,           fixes, fixes, fixes};
+  for (std::size_t c = 0; c < kMeasured.size(); ++c) {
+    if (std::find(quantities.begin(), quantities.end(), kMeasured[c]) != quantities.end())
+      motion.channels[c].clear();
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
@@ -114,9 +129,11 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
 
 LayoutRecordings load(const LayoutFiles& files, const LayoutProgress& progress) {
   const auto one = [&](const std::filesystem::path& file) {
-    return identify::load_motion(
+    RecordedMotion motion = identify::load_motion(
         file, [&](double done) { progress("reading " + file.filename().string(), done); }, files.settings,
         files.window);
+    leave_out(files.without, motion);
+    return motion;
   };
   LayoutRecordings recordings{one(files.recording), {}, {}};
   for (const auto& file : files.holdouts) recordings.holdouts.push_back(one(file));

@@ -11,6 +11,7 @@
 
 #include "config/layout.h"
 #include "config/settings.h"
+#include "gap/data/silence.h"
 #include "gap/verdict/diagnosis.h"
 #include "identify/data/recorded_motion.h"
 
@@ -40,6 +41,7 @@ struct LayoutFiles {
   std::vector<std::filesystem::path> holdouts, nominals;
   std::optional<config::Settings> settings;  ///< of all recordings, instead of their own
   record::TimeWindow window{};               ///< the part of all recordings that counts
+  std::vector<gap::Quantity> without{};      ///< left out of all recordings
 };
 
 /// Gets the current step and the share of it that is done (0 to 1); may throw to end the work.

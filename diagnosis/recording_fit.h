@@ -88,14 +88,17 @@ struct Leads {
   bool has_scatter = false;  ///< the likelihoods have the scatter between recordings in them
 };
 
-/// A recording as evidence about the vehicle and its instruments.
-class RecordingModel {
+class NotCopied {
  public:
-  RecordingModel() = default;
-  RecordingModel(const RecordingModel&) = delete;
-  RecordingModel& operator=(const RecordingModel&) = delete;
-  virtual ~RecordingModel() = default;
+  NotCopied() = default;
+  NotCopied(const NotCopied&) = delete;
+  NotCopied& operator=(const NotCopied&) = delete;
+  virtual ~NotCopied() = default;
+};
 
+/// A recording as evidence about the vehicle and its instruments.
+class RecordingModel : public NotCopied {
+ public:
   /// nullopt: a vehicle with these departures could not have moved so. Departures beyond a bound are at the bound.
   [[nodiscard]] virtual std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const = 0;
   [[nodiscard]] virtual std::optional<RecordingPower> power(const Eigen::VectorXd& at) const = 0;
@@ -107,13 +110,8 @@ class RecordingModel {
 };
 
 /// Makes the models of a diagnosis.
-class ModelSource {
+class ModelSource : public NotCopied {
  public:
-  ModelSource() = default;
-  ModelSource(const ModelSource&) = delete;
-  ModelSource& operator=(const ModelSource&) = delete;
-  virtual ~ModelSource() = default;
-
   /// A nominal recording. Throws std::invalid_argument where the recording cannot be judged.
   [[nodiscard]] virtual std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) = 0;
   /// Fits what the recordings share beside the vehicle (noises) to its nominal models, each at its departures,

@@ -9,7 +9,6 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -142,32 +141,24 @@ void SteadyRecording::find_stretches() {
 }
 
 std::vector<MotionError> SteadyRecording::unmeasured() const {
+  constexpr std::array kAngles{Channel::roll, Channel::pitch, Channel::heading};
+  constexpr std::array kRates{Channel::rate_x, Channel::rate_y, Channel::rate_z};
   std::vector<MotionError> all;
   const auto has = [&](Channel channel) { return recording_.has(channel); };
-  const std::array tilts{Channel::roll, Channel::pitch};
-  for (std::size_t i = 0; i < tilts.size(); ++i) {
-    if (has(tilts[i])) continue;
-    all.emplace_back();
-    all.back().euler_rad[static_cast<Eigen::Index>(i)] = kUnknownTilt_rad;
-  }
   const bool has_sinking = has(Channel::depth) || has(Channel::gauge_depth) || has(Channel::bottom_z);
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    if (has(Channel::water_x) || (i == 2 && has_sinking)) continue;
-    all.emplace_back();
-    all.back().velocity[i] = kUnknownVelocity_m_s;
-  }
-  const std::array rates{Channel::rate_x, Channel::rate_y, Channel::rate_z};
-  const std::array angles{Channel::roll, Channel::pitch, Channel::heading};
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    if (has(rates[i]) || has(angles[i])) continue;
-    all.emplace_back();
-    all.back().velocity[3 + static_cast<Eigen::Index>(i)] = kUnknownRate_rad_s;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (k < 2 && !has(kAngles[k])) all.push_back({kUnknownTilt_rad * Eigen::Vector3d::Unit(i), Vector6::Zero()});
+    if (!has(Channel::water_x) && (k < 2 || !has_sinking))
+      all.push_back({Eigen::Vector3d::Zero(), kUnknownVelocity_m_s * Vector6::Unit(i)});
+    if (!has(kRates[k]) && !has(kAngles[k]))
+      all.push_back({Eigen::Vector3d::Zero(), kUnknownRate_rad_s * Vector6::Unit(3 + i)});
   }
   return all;
 }
 
 void SteadyRecording::leave_out_idle() {
-  if (layout_.thrusters.empty()) return;
+  if (layout_.thrusters.empty() || stretches_.empty()) return;
   const identify::ActuatorTrajectory actuators = inputs_.trajectory(layout_);
   sim::ActuatorValues at = sim::ActuatorValues::neutral(layout_);
   std::vector<double> working;
@@ -177,7 +168,6 @@ void SteadyRecording::leave_out_idle() {
   }
   std::vector<double> sorted = working;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted.empty()) return;
   const double least_N = kIdleShare * sorted[sorted.size() * 9 / 10];
   std::erase_if(stretches_, [&, i = std::size_t{0}](const Stretch&) mutable { return working[i++] < least_N; });
 }
@@ -334,21 +324,21 @@ std::unique_ptr<RecordingModel> SteadySource::nominal(const identify::RecordedMo
 
 void SteadySource::refine(std::size_t round, std::span<const Eigen::VectorXd>) {
   if (round > 0) return;
-  const std::size_t count = nominals_.size();
+  const auto count = std::ssize(nominals_);
   Eigen::MatrixXd balances(6, count), errors = Eigen::MatrixXd::Zero(6, 6);
-  for (std::size_t i = 0; i < count; ++i) {
-    balances.col(static_cast<Eigen::Index>(i)) = nominals_[i]->balance();
-    errors += nominals_[i]->own_covariance() / static_cast<double>(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const SteadyRecording& one = *nominals_[static_cast<std::size_t>(i)];
+    balances.col(i) = one.balance();
+    errors += one.own_covariance() / static_cast<double>(count);
   }
   const Eigen::MatrixXd usual = nominals_.front()->usual_scatter();
   balances_ = nominal_balances(balances, errors, usual);
-  std::vector<Eigen::Index> others(count - 1);
-  for (std::size_t i = 0; i < count; ++i) {
+  if (count < 2) return nominals_.front()->compare_with(balances_);
+  for (Eigen::Index i = 0; i < count; ++i) {
     // Each by the others, as another recording will be.
-    std::iota(others.begin(), others.end(), 0);
-    for (std::size_t k = i; k < others.size(); ++k) ++others[k];
-    nominals_[i]->compare_with(count < 2 ? balances_
-                                         : nominal_balances(balances(Eigen::all, others), errors, usual));
+    Eigen::MatrixXd others(6, count - 1);
+    others << balances.leftCols(i), balances.rightCols(count - 1 - i);
+    nominals_[static_cast<std::size_t>(i)]->compare_with(nominal_balances(others, errors, usual));
   }
 }
 
