@@ -38,9 +38,8 @@ std::filesystem::path usual_cache() {
 std::vector<gap::Quantity> quantities_of(const std::vector<std::string>& instruments) {
   std::vector<gap::Quantity> all;
   try {
-    for (const std::string& name : instruments) {
+    for (const std::string& name : instruments)
       for (const gap::Quantity one : gap::quantities_named(name)) all.push_back(one);
-    }
   } catch (const std::invalid_argument& error) {
     throw base::Failure(base::Exit::usage, std::string("--without: ") + error.what());
   }

@@ -9,6 +9,7 @@
 #include "base/angles.h"
 #include "diagnosis/limits.h"
 #include "identify/replay/calibration.h"
+#include "sim/effects/effect_table.h"
 #include "sim/layout/effects/layout_effects.h"
 
 namespace navcal::diagnosis {
@@ -172,7 +173,8 @@ CauseLibrary causes_of(const config::Layout& layout, const RecordedMotion& recor
   for (const std::string& name : excluded) {
     const bool is_instrument = std::any_of(instrument_errors().begin(), instrument_errors().end(),
                                            [&](const InstrumentError& error) { return error.name == name; });
-    if (!is_instrument && sim::find_layout_effect(name) == nullptr)
+    // An effect that no layout can be diagnosed with is left out already.
+    if (!is_instrument && sim::find_layout_effect(name) == nullptr && !sim::make_effect(name))
       throw std::invalid_argument(name + " is no effect of a layout (navcal simulate --list-effects)");
   }
   const std::set<std::string, std::less<>> left_out(excluded.begin(), excluded.end());

@@ -171,10 +171,7 @@ NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<
   std::vector<Likelihood> linear(all.size());
   ColumnScatter scatter = scatter_of(library, identify::nuisance_stds(alone));
   const bool has_scatter = source.leads().has_scatter;
-  if (has_scatter) {
-    scatter.vehicle.setConstant(kAbsent);
-    scatter.session.setConstant(kAbsent);
-  }
+  if (has_scatter) scatter.vehicle = scatter.session = Eigen::VectorXd::Constant(library.columns(), kAbsent);
   // Without tolerances to fit there is one.
   const std::size_t rounds = has_scatter ? 1 : kNominalRounds;
   for (std::size_t round = 0; round < rounds; ++round) {

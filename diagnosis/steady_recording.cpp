@@ -240,7 +240,8 @@ std::optional<RecordingFit> SteadyRecording::fit(const Eigen::VectorXd& at) cons
   Eigen::MatrixXd white = Eigen::MatrixXd::Zero(6, values.size() + 1);
   const Vector6 here = mean_balance(layout_with(values));
   white.rightCols<1>() = here - nominal_;
-  for (Eigen::Index i = 0; i < std::ssize(library_.parameters); ++i) white.col(i) = slope(values, here, i);
+  for (const Cause& cause : library_.causes)
+    for (const Eigen::Index column : cause.columns()) white.col(column) = slope(values, here, column);
   covariance_.matrixL().solveInPlace(white);
   const auto jacobian = white.leftCols(values.size());
   const Vector6 residual = white.rightCols<1>();
@@ -285,8 +286,7 @@ CauseLibrary steady_causes_of(const config::Layout& layout, const identify::Reco
   std::erase_if(library.causes, [&](const Cause& cause) {
     return cause.is_instrument || std::find(kUntold.begin(), kUntold.end(), cause.name) != kUntold.end();
   });
-  const SteadyRecording alone(layout, library, recording);
-  const auto here = alone.fit(Eigen::VectorXd::Zero(library.columns()));
+  const auto here = SteadyRecording(layout, library, recording).fit(Eigen::VectorXd::Zero(library.columns()));
   std::set<std::string> hidden;
   std::erase_if(library.causes, [&](const Cause& cause) {
     const bool is_hidden = std::ranges::none_of(cause.parameters, [&](const CauseParameter& parameter) {

@@ -153,6 +153,9 @@ TEST(Causes, AnExcludedEffectIsNowhereAndAnUnknownNameIsRefused) {
   for (const Cause& cause : library.causes) EXPECT_NE(cause.name, "thrust_scale");
   for (const identify::Parameter& parameter : library.parameters)
     EXPECT_EQ(parameter.name.find("thrust_scale"), std::string::npos);
+  // No cause of a layout; without it all the same.
+  const std::vector<std::string> of_the_reference_vehicle{"compass_lag"};
+  EXPECT_NO_THROW(static_cast<void>(causes_of(of.prior, {}, of_the_reference_vehicle)));
   const std::vector<std::string> unknown{"thrust_scales"};
   EXPECT_THROW(static_cast<void>(causes_of(of.prior, {}, unknown)), std::invalid_argument);
 }
