@@ -111,7 +111,7 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
   }
   if (!reason.empty()) {
     const std::string why_not = judge([&] {
-      const CauseLibrary told = steady_causes_of(request.layout, recordings.recording, request.excluded);
+      const CauseLibrary told = steady_causes_of(request.layout, recordings.recording, library);
       SteadySource source(request.layout, told);
       find_causes(request, recordings, told, source, progress, answer);
     });

@@ -209,11 +209,6 @@ void add_candidates(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
-/// The most probable set that has an effect.
-auto first_with_causes(const std::vector<ScoredSet>& sets) {
-  return std::find_if(sets.begin(), sets.end(), [](const ScoredSet& one) { return !one.causes.empty(); });
-}
-
 /// Lead that makes a gap, in addition to what nominal recordings have by chance.
 double gap_nats(const NominalBank& bank) { return bank.leads.gap_nats * (bank.powers.size() == 1 ? 2 : 1); }
 
@@ -322,15 +317,17 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   }
   double chance_nats = 0;
   for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, bank.chance_nats[cause]);
+  // The most probable set that has an effect.
+  const auto leading =
+      std::find_if(found.sets.begin(), found.sets.end(), [](const ScoredSet& one) { return !one.causes.empty(); });
   const bool leads = !best.causes.empty() && gain_nats >= gap_nats(bank) + chance_nats;
   if (louder.empty() && !was_loud && !leads) {
     answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();
-    const auto rival = first_with_causes(found.sets);
     const bool is_faint =
-        rival != found.sets.end() && gain_nats + rival->log_odds - best.log_odds >= bank.leads.faint_nats;
+        leading != found.sets.end() && gain_nats + leading->log_odds - best.log_odds >= bank.leads.faint_nats;
     const std::string but =
-        is_faint ? " but for a faint lead of " + library.causes[rival->causes.front()].words() : "";
+        is_faint ? " but for a faint lead of " + library.causes[leading->causes.front()].words() : "";
     answer.sentence = "No effect stands out; without nominal recordings (--nominal) a gap cannot be ruled out.";
     if (has_floor) {
       answer.sentence = fmt::format("Nothing exceeds what nominal recordings show{}.", but);
@@ -340,7 +337,6 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     return;
   }
   if (best.causes.empty()) {
-    const auto leading = first_with_causes(found.sets);
     const auto closed = leading == found.sets.end() ? std::nullopt : closure(leading->causes).closed;
     if (!louder.empty() || closed.value_or(0) < gap::kClosedFrom)
       return say_unknown(gap::UnknownKind::outside, {}, louder, answer);

@@ -182,8 +182,8 @@ NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<
       if (!fit) throw cannot_follow(all[i]);
       linear[i] = std::move(fit->linear);
     }
-    // A recording alone may have a gap: it tells nothing of the vehicle without one.
     bank.leads = source.leads();
+    // A recording alone may have a gap: it tells nothing of the vehicle without one.
     if (recordings.empty()) {
       bank.prior = prior_from({}, scatter);
       return bank;

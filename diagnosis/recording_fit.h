@@ -120,7 +120,7 @@ class ModelSource : public NotCopied {
   /// A recording that is compared with a nominal vehicle of these departures.
   [[nodiscard]] virtual std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                                  const Eigen::VectorXd& nominal) const = 0;
-  /// Once the nominal models are refined.
+  /// Whether there is a scatter, at any time; the rest once the nominal models are refined.
   [[nodiscard]] virtual Leads leads() const = 0;
 };
 

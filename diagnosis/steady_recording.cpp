@@ -157,6 +157,13 @@ std::vector<MotionError> SteadyRecording::unmeasured() const {
   return all;
 }
 
+void SteadyRecording::leave_out(const std::vector<bool>& of_stretches) {
+  std::vector<Stretch> kept;
+  for (std::size_t i = 0; i < of_stretches.size(); ++i)
+    if (!of_stretches[i]) kept.push_back(std::move(stretches_[i]));
+  stretches_ = std::move(kept);
+}
+
 void SteadyRecording::leave_out_idle() {
   if (layout_.thrusters.empty() || stretches_.empty()) return;
   const identify::ActuatorTrajectory actuators = inputs_.trajectory(layout_);
@@ -169,7 +176,9 @@ void SteadyRecording::leave_out_idle() {
   std::vector<double> sorted = working;
   std::sort(sorted.begin(), sorted.end());
   const double least_N = kIdleShare * sorted[sorted.size() * 9 / 10];
-  std::erase_if(stretches_, [&, i = std::size_t{0}](const Stretch&) mutable { return working[i++] < least_N; });
+  std::vector<bool> is_idle(working.size());
+  for (std::size_t i = 0; i < working.size(); ++i) is_idle[i] = working[i] < least_N;
+  leave_out(is_idle);
 }
 
 void SteadyRecording::leave_out_apart() {
@@ -183,7 +192,7 @@ void SteadyRecording::leave_out_apart() {
     const double sigma = std::hypot(1.4826 * base::median(values), least[axis]);
     for (std::size_t i = 0; i < values.size(); ++i) is_apart[i] = is_apart[i] || values[i] > kApart_sigma * sigma;
   }
-  std::erase_if(stretches_, [&, i = std::size_t{0}](const Stretch&) mutable { return is_apart[i++]; });
+  leave_out(is_apart);
 }
 
 Eigen::VectorXd SteadyRecording::values_at(const Eigen::VectorXd& at) const {
@@ -278,11 +287,10 @@ std::optional<RecordingPower> SteadyRecording::power(const Eigen::VectorXd& at) 
 }
 
 CauseLibrary steady_causes_of(const config::Layout& layout, const identify::RecordedMotion& recording,
-                              std::span<const std::string> excluded) {
+                              CauseLibrary library) {
   constexpr std::array<std::string_view, 8> kUntold{"added_mass",      "fin_dead_band", "fin_lag",
                                                     "fin_offset",      "thruster_lag",  "thruster_dead_band",
                                                     "thruster_offset", "yaw_damping"};
-  CauseLibrary library = causes_of(layout, recording, excluded);
   std::erase_if(library.causes, [&](const Cause& cause) {
     return cause.is_instrument || std::find(kUntold.begin(), kUntold.end(), cause.name) != kUntold.end();
   });

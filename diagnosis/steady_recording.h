@@ -93,6 +93,7 @@ class SteadyRecording final : public RecordingModel {
   }
   /// Change of the mean balance with one parameter.
   [[nodiscard]] sim::Vector6 slope(const Eigen::VectorXd& at, const sim::Vector6& here, Eigen::Index column) const;
+  void leave_out(const std::vector<bool>& of_stretches);
   void leave_out_idle();
   void leave_out_apart();
 
@@ -109,10 +110,9 @@ class SteadyRecording final : public RecordingModel {
 
 /// Effects of a layout that mean forces can tell: those of actuators and of the hull at rest that move the balance
 /// of this recording. Of an actuator the gain is one: the offset, the dead band and the gain of a steady command
-/// are not told apart. Throws as SteadyRecording does.
+/// are not told apart. `library`: all causes of the layout. Throws as SteadyRecording does.
 [[nodiscard]] CauseLibrary steady_causes_of(const config::Layout& layout,
-                                            const identify::RecordedMotion& recording,
-                                            std::span<const std::string> excluded);
+                                            const identify::RecordedMotion& recording, CauseLibrary library);
 
 /// Recordings by their steady stretches. Layout and library must outlive it and its models.
 class SteadySource final : public ModelSource {

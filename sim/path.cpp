@@ -65,7 +65,7 @@ bool ends_as_it_began(const PathRow& first, const PathRow& last) {
          near(first.rate_rad_s, last.rate_rad_s, 1e-3);
 }
 
-/// What follows of the columns of a path.
+/// The members of a state that the columns of a path imply.
 State completed(State state, const Vector3& velocity_change_m_s2) {
   state.specific_force_m_s2 =
       specific_force(state.euler_rad, state.velocity_body_m_s, state.rate_rad_s, velocity_change_m_s2);

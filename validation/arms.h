@@ -43,11 +43,11 @@ struct TrialArmFacts {
 /// Arms of the cases in the order of their numbers, over and over: a case's arm follows from its number alone, so
 /// that it is the same case in a trial of any length.
 using TrialRound = std::span<const TrialArm>;
-/// Of the reference vehicle: 11 nulls; one each of nulls-6, single-0.5, single-2; two each of the others. 17
-/// rounds give each of these 34 cases, as many as there are effects.
+/// The round of the reference vehicle: 11 nulls; one each of nulls-6, single-0.5, single-2; two each of the
+/// others. 17 rounds give each of these 34 cases, as many as there are effects.
 inline constexpr int kCasesPerRound = 32;
 [[nodiscard]] TrialRound reference_round();
-/// Of vehicles with a layout: 16 cases, of them five nulls.
+/// The round of vehicles with a layout: 16 cases, five of them nulls.
 [[nodiscard]] TrialRound layout_round();
 
 [[nodiscard]] TrialArm arm_of_case(int number, TrialRound round = reference_round());

@@ -26,8 +26,8 @@ struct TrialResult {
 enum class TrialOutcome : std::uint8_t {
   exact,  ///< all effects that are there are named, and no other
   part,   ///< only such, but not all
-  /// What is named is easily taken for what is there, or said to be confused with it: counted where the effect is
-  /// removed from the library, and of layouts. Of a library effect of the reference vehicle that is a wrong name.
+  /// An effect is named that is easily taken for the true one, or said to be confused with it. It counts where the
+  /// true one is removed from the library, and for layouts; else it is a wrong name.
   in_class,
   wrong,  ///< something is named that is not there
   unknown,

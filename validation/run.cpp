@@ -58,7 +58,7 @@ void keep(const fs::path& folder, const CaseRunOptions& asking, const std::strin
   fs::copy(folder, asking.keep / name, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
 }
 
-/// How the program is told of a vehicle: by options of `navcal gap`, the first the file of --vehicle.
+/// A vehicle, as options of `navcal gap`; the first is the file of --vehicle.
 struct VehicleUnderTrial {
   std::vector<std::string> options;
   std::string failure;  ///< why it could not be identified

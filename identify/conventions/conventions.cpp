@@ -150,7 +150,7 @@ std::vector<std::string> untold_by(const std::vector<Suspect>& suspects, const s
   std::vector<std::string> untold;
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     const double nats = gains[i].nats - suspects[i].log_prior;
-    // What changes nothing at all is of a channel that is not measured.
+    // A suspect that changes nothing at all concerns a channel that is not measured.
     if (!suspects[i].name.empty() && nats > -kTold_nats && std::abs(nats) > kSame)
       untold.push_back(suspects[i].words);
   }

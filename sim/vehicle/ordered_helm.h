@@ -20,10 +20,10 @@ class OrderedHelm final : public Helm {
   /// Depth of the origin of a vehicle that lies at the surface.
   static constexpr double kSurface_m = 0.15;
 
-  /// By the motor card of a vehicle of one propeller and three fins: rpm and three angles (rad) are ordered. The
-  /// card limits the shaft: to the autopilot's shaft limit, and to an acceleration of kGreatestAcceleration_rps_s.
+  /// Ordered by a motor card with one propeller and three fins: rpm, and three angles (rad). The card limits the
+  /// shaft to the autopilot's shaft limit, and to an acceleration of kGreatestAcceleration_rps_s.
   explicit OrderedHelm(const config::VehicleSettings& vehicle);
-  /// By the outputs of a layout: pulses in us are ordered (sim/layout/pulses.h).
+  /// Ordered by the outputs of a layout: pulses in us (sim/layout/pulses.h).
   explicit OrderedHelm(const config::Layout& layout);
 
   /// Takes an order; nullopt leaves a number as it is. Times are in order, seconds of the run. An order applies

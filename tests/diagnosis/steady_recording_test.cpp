@@ -36,7 +36,7 @@ config::Layout of_day(config::Layout layout, std::uint64_t day) {
   return layout;
 }
 
-/// What the controller of a vehicle orders that hovers for `duration_s`; before that it stands on the ground.
+/// Orders of a controller whose vehicle hovers for `duration_s`; before that it stands on the ground.
 RecordedMotion hover(const config::Layout& truth, std::uint64_t seed, double ground_s = 0,
                      double duration_s = kDuration_s) {
   std::mt19937_64 random(seed);
@@ -125,7 +125,7 @@ TEST(SteadyRecording, TheBalanceOfATrueVehicleIsZeroWithinItsErrors) {
   const config::Layout layout = heavy_rov();
   const RecordedMotion recording = hover(layout, 81);
   const std::vector<std::string> none;
-  const CauseLibrary library = steady_causes_of(layout, recording, none);
+  const CauseLibrary library = steady_causes_of(layout, recording, causes_of(layout, recording, none));
   const auto power = SteadyRecording(layout, library, recording).power(Eigen::VectorXd::Zero(library.columns()));
   ASSERT_TRUE(power);
   EXPECT_LT(power->mean_square, 4);

@@ -183,7 +183,7 @@ double scale_value(const config::Layout& layout, LayoutScale scale) {
     case LayoutScale::mass_kg: return layout.body.mass_kg;
     case LayoutScale::weight_N: return layout.weight_N();
     case LayoutScale::length_m:
-      // Of the water that weighs as much: a vehicle in air displaces next to nothing.
+      // A vehicle in air displaces next to nothing: the water that weighs as much counts.
       return std::cbrt(std::max(layout.body.buoyancy_N, layout.weight_N()) /
                        (layout.water_density_kg_m3 * base::kGravity_m_s2));
     case LayoutScale::one: break;
