@@ -123,7 +123,7 @@ function(navcal_room name)
     file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/no_sources.cpp CONTENT "")
     set(ROOM_SOURCES ${CMAKE_CURRENT_BINARY_DIR}/no_sources.cpp)
     add_library(${target} STATIC ${ROOM_SOURCES})
-    target_link_libraries(${target} INTERFACE ${NAVCAL_COMPUTING_FROM}/${name}/lib${target}.a)
+    target_link_libraries(${target} INTERFACE ${CMAKE_BINARY_DIR}/computing/lib${target}.a)
     add_dependencies(${target} navcal_computing)
     set_property(GLOBAL APPEND PROPERTY NAVCAL_COMPUTING_TARGETS ${target})
     set_property(GLOBAL APPEND PROPERTY NAVCAL_COMPUTING_FILES ${NAVCAL_COMPUTING_FROM}/${name}/lib${target}.a)
@@ -147,7 +147,7 @@ function(navcal_room name)
   endif()
 endfunction()
 
-# navcal_computing_target(): brings the libraries of the other build up to date before they are linked.
+# navcal_computing_target(): brings the libraries of the other build up to date before they are linked, and copies them.
 function(navcal_computing_target)
   get_property(targets GLOBAL PROPERTY NAVCAL_COMPUTING_TARGETS)
   get_property(files GLOBAL PROPERTY NAVCAL_COMPUTING_FILES)
@@ -155,8 +155,10 @@ function(navcal_computing_target)
     if(NOT EXISTS ${NAVCAL_COMPUTING_FROM}/CMakeCache.txt)
       message(FATAL_ERROR "this build links libraries of ${NAVCAL_COMPUTING_FROM}: configure that one first (cmake --preset release)")
     endif()
+    list(TRANSFORM files REPLACE ".*/" ${CMAKE_BINARY_DIR}/computing/ OUTPUT_VARIABLE copies)
     add_custom_target(navcal_computing COMMAND ${CMAKE_COMMAND} --build ${NAVCAL_COMPUTING_FROM} --target ${targets}
-      BYPRODUCTS ${files} USES_TERMINAL VERBATIM)
+      COMMAND ${CMAKE_SOURCE_DIR}/cmake/separate_computing ${CMAKE_BINARY_DIR}/computing ${files}
+      BYPRODUCTS ${copies} USES_TERMINAL VERBATIM)
   endif()
 endfunction()
 
