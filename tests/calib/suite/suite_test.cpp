@@ -116,7 +116,7 @@ TEST(Suite, WhatIsRightAlreadyIsNotReplacedByChance) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Suite suite(thesis_options(), {true, false, false, false});
     Suite with_gyros(thesis_options(), kCompassAndGyros);
-    for (const Reading& reading : readings_along("path_long600", {}, {}, seed)) {
+    for (const Reading& reading : readings_along("path_long600", Deviation::Zero(), {}, seed)) {
       if (std::holds_alternative<CompassReading>(reading)) suite.put(reading);
       with_gyros.put(reading);
       while (const auto adopted = with_gyros.take_adopted()) {
