@@ -31,6 +31,11 @@ constexpr double kLeastReadings = 64;
 constexpr std::array kWhiteCorrelation{1.0, 0.53, 0.19, 0.07, 0.02};
 constexpr std::array kWalkCorrelation{1.0, 0.89, 0.67, 0.49, 0.35};
 
+struct Sampling {
+  double period_s = 0;
+  double lag1 = 0;  ///< correlation of consecutive readings; of those k apart, its power k
+};
+
 struct Problem {
   Columns terms;          ///< AVAR of N = 1, B = 1, K = 1
   Eigen::VectorXd lines;  ///< AVAR of the spectral lines
@@ -53,7 +58,18 @@ double line_variance(const SpectralLine& line, double factor, double period_s) {
   return std::pow(line.amplitude * sine * sine / (factor * std::sin(angle)), 2);
 }
 
-Problem problem_of(const std::vector<AllanPoint>& points, double period_s,
+/// Allan variance of correlated readings whose N is 1: sums of the autocorrelation a^k over both averages.
+double correlated_variance(const AllanPoint& point, double a) {
+  const double m = static_cast<double>(point.factor), last = std::pow(a, m);
+  return (1 - a * (1 - last) * (3 - last) / (m * (1 - a * a))) / point.tau_s;
+}
+
+/// Allan variance of a random walk whose K is 1. Readings are samples of it, not means: hence the second term.
+double walk_variance(const AllanPoint& point, double period_s) {
+  return point.tau_s / 3 + period_s * period_s / (6 * point.tau_s);
+}
+
+Problem problem_of(const std::vector<AllanPoint>& points, const Sampling& sampling,
                    const std::vector<SpectralLine>& lines) {
   Problem problem;
   const auto n = static_cast<Eigen::Index>(points.size());
@@ -62,9 +78,10 @@ Problem problem_of(const std::vector<AllanPoint>& points, double period_s,
   problem.measured.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const AllanPoint& point = points[static_cast<std::size_t>(i)];
-    problem.terms.row(i) << 1 / point.tau_s, kFlickerLevel, point.tau_s / 3;
+    problem.terms.row(i) << correlated_variance(point, sampling.lag1), kFlickerLevel,
+        walk_variance(point, sampling.period_s);
     for (const auto& line : lines)
-      problem.lines[i] += line_variance(line, static_cast<double>(point.factor), period_s);
+      problem.lines[i] += line_variance(line, static_cast<double>(point.factor), sampling.period_s);
     problem.measured[i] = point.deviation * point.deviation;
     problem.factors.push_back(point.factor);
   }
@@ -171,7 +188,7 @@ std::optional<Choice> best_of(const Problem& problem, const Pieces& pieces) {
 
 /// Readings without a gap from which a term of this size, beside the others in `solution`, would stand out.
 std::optional<double> readings_needed(Solution solution, const std::vector<int>& used, int term, double square,
-                                      double period_s, double readings) {
+                                      const Sampling& sampling, double readings) {
   constexpr int kMostSteps = 80;
   constexpr double kStep = 1.19;  // a fourth of an octave
   solution.squares[term] = square;
@@ -180,10 +197,10 @@ std::optional<double> readings_needed(Solution solution, const std::vector<int>&
     for (std::size_t m = 1; 2 * static_cast<double>(m) <= readings; m *= 2) {
       AllanPoint point;
       point.factor = m;
-      point.tau_s = static_cast<double>(m) * period_s;
+      point.tau_s = static_cast<double>(m) * sampling.period_s;
       points.push_back(point);
     }
-    Problem problem = problem_of(points, period_s, {});
+    Problem problem = problem_of(points, sampling, {});
     problem.measured = solution.model = problem.terms * solution.squares;
     solution.edf.resize(problem.measured.size());
     for (Eigen::Index i = 0; i < solution.edf.size(); ++i)
@@ -198,7 +215,8 @@ std::optional<double> readings_needed(Solution solution, const std::vector<int>&
 }
 
 /// A term that the best set does not have: its limit beside that set, and the length that would show it.
-NoiseTerm absent_term(const Problem& problem, const Choice& choice, int term, double period_s, double readings) {
+NoiseTerm absent_term(const Problem& problem, const Choice& choice, int term, const Sampling& sampling,
+                      double readings) {
   NoiseTerm absent;
   std::vector<int> used = choice.used;
   used.push_back(term);
@@ -209,8 +227,8 @@ NoiseTerm absent_term(const Problem& problem, const Choice& choice, int term, do
   if (!(limit > 0) || !std::isfinite(limit)) return absent;
   absent.limit = std::sqrt(limit);
   if (term == 0) return absent;  // a longer recording has no more short times
-  const auto needed = readings_needed(choice.solution, used, term, limit, period_s, readings);
-  if (needed) absent.needs_s = *needed * period_s;
+  const auto needed = readings_needed(choice.solution, used, term, limit, sampling, readings);
+  if (needed) absent.needs_s = *needed * sampling.period_s;
   return absent;
 }
 
@@ -224,7 +242,8 @@ NoiseTerm present_term(const Solution& solution, int term) {
 }  // namespace
 
 AllanFit fit_allan(std::vector<AllanPoint>& points, const Pieces& pieces, double period_s, double shortest_s,
-                   const std::vector<SpectralLine>& lines) {
+                   double lag1, const std::vector<SpectralLine>& lines) {
+  const Sampling sampling{period_s, lag1};
   std::vector<AllanPoint> usable;
   for (const AllanPoint& point : points) {
     const bool long_enough = point.tau_s > shortest_s - period_s / 2;
@@ -237,7 +256,7 @@ AllanFit fit_allan(std::vector<AllanPoint>& points, const Pieces& pieces, double
     if (duration_s < least_s) term->needs_s = least_s;
   }
   if (usable.empty()) return fit;
-  const Problem problem = problem_of(usable, period_s, lines);
+  const Problem problem = problem_of(usable, sampling, lines);
   const auto best = best_of(problem, pieces);
   if (!best) return fit;
   const std::array terms{&fit.white, &fit.flicker, &fit.walk};
@@ -247,9 +266,9 @@ AllanFit fit_allan(std::vector<AllanPoint>& points, const Pieces& pieces, double
     if (present)
       found = present_term(best->solution, term);
     else if (duration_s >= least_s)
-      found = absent_term(problem, *best, term, period_s, readings);
+      found = absent_term(problem, *best, term, sampling, readings);
   }
-  const Problem all = problem_of(points, period_s, lines);
+  const Problem all = problem_of(points, sampling, lines);
   for (std::size_t i = 0; i < points.size(); ++i)
     set_confidence(points[i], allan_edf(kind_at(all, best->solution.squares, static_cast<Eigen::Index>(i)), pieces,
                                         points[i].factor));

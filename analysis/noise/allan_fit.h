@@ -9,11 +9,13 @@
 
 /// White noise N, bias instability B and random walk K from an Allan deviation (IEEE Std 952, annex C):
 ///
-///     AVAR(tau) = N^2 / tau + B^2 2 ln 2 / pi + K^2 tau / 3 + lines.
+///     AVAR(tau) = N^2 / tau + B^2 2 ln 2 / pi + K^2 (tau / 3 + tau0^2 / (6 tau)) + lines.
 ///
-/// N is the root of the two-sided power density (of a rate: the angle random walk); independent readings of
-/// standard deviation s at intervals tau0 have N = s sqrt(tau0). B is 1/0.664 of the level of the flat part.
-/// Spectral lines are known terms: A^2 sin^4(pi f m tau0) / (m sin(pi f tau0))^2.
+/// The last part of K^2 is there because readings are samples of the walk, tau0 apart, and not means of it. Of
+/// readings with correlation a from one to the next, N^2 / tau of m readings has the factor 1 - a (1 - a^m) (3 -
+/// a^m) / (m (1 - a^2)). N is the root of the two-sided power density (of a rate: the angle random walk);
+/// independent readings of standard deviation s at intervals tau0 have N = s sqrt(tau0). B is 1/0.664 of the level
+/// of the flat part. Spectral lines are known terms: A^2 sin^4(pi f m tau0) / (m sin(pi f tau0))^2.
 ///
 /// N^2, B^2 and K^2 are fitted by least squares, weighted by the model's own variance 2 AVAR^2 / edf and repeated
 /// until they agree. The covariance takes into account that neighbouring points are correlated. Among the sets of
@@ -34,9 +36,9 @@ struct AllanFit {
   NoiseTerm white, flicker, walk;
 };
 
-/// Fits `points` from tau >= `shortest_s` on (readings that are correlated spoil shorter ones). Sets the
+/// Fits `points` from tau >= `shortest_s` on (filters of a higher order spoil shorter ones). Sets the
 /// confidence intervals of all points by the kind of noise that dominates there.
 [[nodiscard]] AllanFit fit_allan(std::vector<AllanPoint>& points, const Pieces& pieces, double period_s,
-                                 double shortest_s, const std::vector<SpectralLine>& lines);
+                                 double shortest_s, double lag1, const std::vector<SpectralLine>& lines);
 
 }  // namespace navcal::analysis

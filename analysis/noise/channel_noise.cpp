@@ -48,10 +48,12 @@ void separate_rounding(ChannelNoise& noise) {
 
 void find_terms(ChannelNoise& noise, const Pieces& pieces, double period_s) {
   noise.allan = allan_deviation(pieces, period_s);
-  double shortest_s = period_s;
-  if (noise.reading && noise.reading->correlated)
+  double shortest_s = period_s, lag1 = 0;
+  if (noise.reading && noise.reading->correlated) {
+    lag1 = noise.reading->lag1;
     shortest_s = kFilterTimes * std::max(noise.reading->time_constant_s.value_or(0), period_s);
-  noise.terms = fit_allan(noise.allan, pieces, period_s, shortest_s, noise.lines);
+  }
+  noise.terms = fit_allan(noise.allan, pieces, period_s, shortest_s, lag1, noise.lines);
   const NoiseTerm& white = noise.terms.white;
   if (!noise.reading || !noise.reading->correlated || !white.value) return;
   noise.effective = *white.value / std::sqrt(period_s);

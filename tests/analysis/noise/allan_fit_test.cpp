@@ -16,7 +16,7 @@ constexpr double kPeriod_s = 0.02;
 AllanFit fit_of(const std::vector<double>& readings, const std::vector<SpectralLine>& lines = {}) {
   const Pieces pieces{readings};
   auto points = allan_deviation(pieces, kPeriod_s);
-  return fit_allan(points, pieces, kPeriod_s, kPeriod_s, lines);
+  return fit_allan(points, pieces, kPeriod_s, kPeriod_s, 0, lines);
 }
 
 struct Tally {
@@ -29,7 +29,7 @@ struct Tally {
 };
 
 TEST(AllanFit, WhiteNoiseIsWithinItsErrorInNineteenOfTwenty) {
-  constexpr int kTrials = 600;
+  constexpr int kTrials = 400;
   Tally white;
   int flicker = 0, walk = 0;
   for (unsigned seed = 0; seed < kTrials; ++seed) {
@@ -40,8 +40,8 @@ TEST(AllanFit, WhiteNoiseIsWithinItsErrorInNineteenOfTwenty) {
   }
   EXPECT_EQ(white.found, kTrials);
   // Three standard deviations of the share about 95 %.
-  EXPECT_GE(white.within, 0.923 * kTrials);
-  EXPECT_LE(white.within, 0.977 * kTrials);
+  EXPECT_GE(white.within, 0.917 * kTrials);
+  EXPECT_LE(white.within, 0.983 * kTrials);
   // Terms that are not there.
   EXPECT_LE(flicker, 0.02 * kTrials);
   EXPECT_LE(walk, 0.02 * kTrials);
@@ -65,10 +65,17 @@ TEST(AllanFit, ARandomWalkBesideWhiteNoiseIsFoundWithItsError) {
 }
 
 TEST(AllanFit, ARandomWalkAloneLeavesNoWhiteNoise) {
-  const auto fit = fit_of(noise_test::MadeNoise(3).walk(5000, 1));
-  EXPECT_FALSE(fit.white.value);
-  ASSERT_TRUE(fit.walk.value);
-  EXPECT_NEAR(*fit.walk.value, 1 / std::sqrt(kPeriod_s), 4 * *fit.walk.error);
+  constexpr int kTrials = 200;
+  int white = 0;
+  Tally walk;
+  for (unsigned seed = 0; seed < kTrials; ++seed) {
+    const auto fit = fit_of(noise_test::MadeNoise(seed).walk(5000, 1));
+    white += fit.white.value ? 1 : 0;
+    walk.add(fit.walk, 1 / std::sqrt(kPeriod_s));
+  }
+  EXPECT_LE(white, 0.02 * kTrials);
+  EXPECT_EQ(walk.found, kTrials);
+  EXPECT_GE(walk.within, 0.90 * kTrials);
 }
 
 TEST(AllanFit, FlickerNoiseIsBiasInstability) {
