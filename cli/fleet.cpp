@@ -232,8 +232,8 @@ void add_fleet(CLI::App& app) {
   add_fleet_list(*command);
   add_fleet_merge(*command);
   add_fleet_causes(*command);
-  add_fleet_trial(*command);
-  command->get_subcommand("trial")->group("");  // navcal research lists it
+  add_left_out(*command, "trial", kFleetTrialIs);
+  command->get_subcommand("trial")->group("");
 }
 
 }  // namespace navcal::cli

@@ -7,14 +7,12 @@ void add_research(CLI::App& app) {
   auto* const research = app.add_subcommand("research", "trials and benches that judge navcal itself");
   research->require_subcommand(1);
   research->footer(
-      "Older names stay: navcal gap trial, fleet trial, thesis, validate-runs.\n\n"
+      "Older names stay: navcal gap trial, thesis, validate-runs.\n\n"
       "Example: navcal research gap-trial --cases 32 --report trial.html");
-  const auto add = [research](void (*adds)(CLI::App&), const char* name) {
-    adds(*research);
-    research->get_subcommands(nullptr).back()->name(name);
-  };
-  add(add_gap_trial, "gap-trial");
-  add(add_fleet_trial, "fleet-trial");
+  add_gap_trial(*research);
+  research->get_subcommand("trial")->name("gap-trial");
+  add_left_out(*research, "fleet-trial", kFleetTrialIs);
+  research->get_subcommand("fleet-trial")->group("");
   add_validate_runs(*research);
   add_thesis(*research);
 }

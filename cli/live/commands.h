@@ -65,11 +65,15 @@ void add_gap_next(CLI::App& gap);
 void add_gap_watch(CLI::App& gap);
 void add_gap_trial(CLI::App& gap);
 void add_fleet_submit(CLI::App& fleet);
-/// `fleet trial record` and `fleet trial score`.
-void add_fleet_trial(CLI::App& parent);
 void add_ports_send_calibration(CLI::App& ports);
-/// Stands for a command whose source is not linked, and says how to get it.
-void add_left_out(CLI::App& parent, const std::string& name);
+/// Stands for a command that is not in this program: `why`, behind the name and "is", says how to get it.
+void add_left_out(CLI::App& parent, const std::string& name,
+                  const std::string& why =
+                      "not in this build, which has what the demo needs. For all of navcal:\n"
+                      "  cmake --build --preset release --target navcal");
+inline constexpr const char* kFleetTrialIs =
+    "a program of its own: bench_fleet_trial\n  cmake --preset bench && cmake --build --preset bench --target "
+    "bench_fleet_trial";
 
 /// All of them (written by cli/live/command_table.cmake).
 void add_commands(CLI::App& parent);

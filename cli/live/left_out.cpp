@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <string>
 
 #include "cli/live/commands.h"
 
 namespace navcal::cli {
 
-void add_left_out(CLI::App& parent, const std::string& name) {
-  CLI::App* const command = parent.add_subcommand(name, "not in this build, which has what the demo needs");
+void add_left_out(CLI::App& parent, const std::string& name, const std::string& why) {
+  CLI::App* const command = parent.add_subcommand(name, why.substr(0, why.find_first_of(".:")));
   command->allow_extras();
   command->set_help_flag();
-  command->callback([called = (parent.get_parent() == nullptr ? "" : parent.get_name() + ' ') + name] {
-    throw base::Failure(base::Exit::failed,
-                        fmt::format("{} is not in this build, which has what the demo needs. For all of navcal:\n"
-                                    "  cmake --build --preset release --target navcal",
-                                    called));
-  });
+  command->callback([text = (parent.get_parent() == nullptr ? "" : parent.get_name() + ' ') + name + " is " +
+                            why] { throw base::Failure(base::Exit::failed, text); });
 }
 
 }  // namespace navcal::cli

@@ -77,10 +77,22 @@ TEST(Commands, OldNamesOfTheResearchCommandsStay) {
   const CLI::App& research = *app.get_subcommand("research");
   EXPECT_EQ(options_of(*app.get_subcommand("gap")->get_subcommand("trial")),
             options_of(*research.get_subcommand("gap-trial")));
-  EXPECT_EQ(options_of(*app.get_subcommand("fleet")->get_subcommand("trial")),
-            options_of(*research.get_subcommand("fleet-trial")));
   for (const char* const name : {"thesis", "validate-runs"})
     EXPECT_EQ(options_of(*app.get_subcommand(name)), options_of(*research.get_subcommand(name)));
+}
+
+TEST(Commands, NamesOfTheTrialOfFleetsSayWhereItIsNow) {
+  for (std::vector<std::string> called :
+       {std::vector<std::string>{"score", "trial", "fleet"}, {"--seed=7", "record", "fleet-trial", "research"}}) {
+    CLI::App app("", "navcal");
+    add_commands(app);
+    try {
+      app.parse(called);  // the last is the first, and it is left empty
+      ADD_FAILURE() << "the trial did something";
+    } catch (const base::Failure& failure) {
+      EXPECT_NE(std::string(failure.what()).find("is a program of its own: bench_fleet_trial"), std::string::npos);
+    }
+  }
 }
 
 // A file with a subcommand whose line in cli/live/commands.h was forgotten compiles, and nobody could call it.

@@ -36,7 +36,7 @@ TEST_F(Completion, CommandsAndTheirCommands) {
   EXPECT_EQ(offered("navcal log ex"), "export");
   EXPECT_NE(offered("navcal ''").find("watch"), std::string::npos);
   EXPECT_EQ(offered("navcal thes"), "") << "listed by navcal research only";
-  EXPECT_EQ(offered("navcal research ''"), "gap-trial fleet-trial validate-runs thesis");
+  EXPECT_EQ(offered("navcal research ''"), "gap-trial validate-runs thesis");
   EXPECT_EQ(offered("navcal research gap-trial --cas"), "--cases");
 }
 

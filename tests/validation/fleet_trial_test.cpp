@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validation/fleet_trial.h"
+#include "bench/fleet_trial/fleet_trial.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace navcal::validation {
+namespace navcal::bench {
 namespace {
 
 FleetTruth truth_of(const FleetCase& fleet) { return read_fleet_truth(truth_text(fleet)); }
@@ -65,4 +65,4 @@ TEST(FleetScore, RefusesWhatIsNoAnswer) {
 }
 
 }  // namespace
-}  // namespace navcal::validation
+}  // namespace navcal::bench

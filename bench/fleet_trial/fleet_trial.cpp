@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validation/fleet_trial.h"
+#include "bench/fleet_trial/fleet_trial.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,9 @@
 #include "base/utc_text.h"
 #include "validation/recordings.h"
 
-namespace navcal::validation {
+namespace navcal::bench {
+using validation::kDay_ns;
+using validation::MissionKind;
 namespace {
 
 constexpr double kOwnTolerance = 0.02;
@@ -94,9 +96,10 @@ using FleetAnswerJson = nlohmann::json;
 
 /// Sailed by each vehicle in turn, and by the vehicles of one day alike.
 reference::Mission mission_of(const FleetCase& fleet, int day) {
-  const MissionKind kind = fleet.options.minutes == kBriefMinutes ? MissionKind::brief : MissionKind::usual;
-  reference::Mission mission =
-      at_place(trial_missions(kind, fleet.options.minutes)[static_cast<std::size_t>(day) % 3], fleet.place);
+  const MissionKind kind =
+      fleet.options.minutes == validation::kBriefMinutes ? MissionKind::brief : MissionKind::usual;
+  reference::Mission mission = validation::at_place(
+      validation::trial_missions(kind, fleet.options.minutes)[static_cast<std::size_t>(day) % 3], fleet.place);
   mission.start_ns = fleet.place.begin_ns + day * kDay_ns;
   return mission;
 }
@@ -220,7 +223,7 @@ bool FleetCause::acts_in(int of_vehicle, int on_day) const {
 FleetCase drawn_fleet(const FleetTrialOptions& options) {
   FleetCase fleet;
   fleet.options = options;
-  fleet.place = drawn_place(options.seed, 0);
+  fleet.place = validation::drawn_place(options.seed, 0);
   reference::Rng dice(options.seed, kFleetStream);
   for (int v = 0; v < options.vehicles; ++v) {
     reference::VehicleUnderTest vehicle;
@@ -293,7 +296,7 @@ void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, un
     throw std::invalid_argument(folder.string() + ": the folder is not empty");
   }
   std::filesystem::create_directories(folder);
-  write_vehicle_file(fleet.place, folder);
+  validation::write_vehicle_file(fleet.place, folder);
   struct Mission {
     int vehicle = 0, day = 0;
     std::uint64_t seed = 0;
@@ -309,8 +312,8 @@ void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, un
   std::size_t done = 0;
   base::in_parallel(threads, missions.size(), [&](std::size_t i) {
     const auto& [vehicle, day, seed] = missions[i];
-    write_recording(mission_of(fleet, day), vehicle_on(fleet, vehicle, day), seed,
-                    folder / mission_name(vehicle, day));
+    validation::write_recording(mission_of(fleet, day), vehicle_on(fleet, vehicle, day), seed,
+                                folder / mission_name(vehicle, day));
     const std::lock_guard lock(mutex);
     progress(static_cast<double>(++done) / static_cast<double>(missions.size()));
   });
@@ -349,4 +352,4 @@ std::string score_text(const FleetScore& score) {
   return text;
 }
 
-}  // namespace navcal::validation
+}  // namespace navcal::bench

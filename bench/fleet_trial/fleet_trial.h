@@ -13,7 +13,7 @@
 #include "validation/reference/effects.h"
 #include "validation/reference/run.h"
 
-namespace navcal::validation {
+namespace navcal::bench {
 
 /// What a cause of a fleet belongs to.
 enum class FleetLevel : std::uint8_t { vehicle, design, day };
@@ -44,7 +44,7 @@ struct FleetTrialOptions {
 /// A fleet as it is drawn: the truth, which the answer must not know.
 struct FleetCase {
   FleetTrialOptions options;
-  TrialPlace place;
+  validation::TrialPlace place;
   std::vector<FleetCause> causes;
   /// Each vehicle with its own tolerance, 2 % of everything, and without causes.
   std::vector<reference::VehicleUnderTest> vehicles;
@@ -71,7 +71,7 @@ struct FleetTruth {
 };
 [[nodiscard]] FleetTruth read_fleet_truth(std::string_view json);
 
-/// Swims all missions of a fleet in the reference simulator and writes their captures below the folder, which must
+/// Sails all missions of a fleet in the reference simulator and writes their captures below the folder, which must
 /// be new or empty, and a vehicle.toml with the density of the water. Nothing in or about them tells of the
 /// causes. `progress` gets 0 to 1. Throws std::invalid_argument (the folder), base::Failure,
 /// std::system_error.
@@ -100,4 +100,4 @@ struct FleetScore {
 /// The score for people.
 [[nodiscard]] std::string score_text(const FleetScore& score);
 
-}  // namespace navcal::validation
+}  // namespace navcal::bench
