@@ -130,9 +130,6 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (options.where.field_uT())
     throw std::invalid_argument(
         "--field: the diagnosis of a layout takes the heading's offset from each recording");
-  if (options.source.missions.size() > 1)
-    throw std::invalid_argument(
-        "several recordings together: not yet for a layout; diagnose one, and hold out others");
   if (options.bank_missions != gap::Request{}.bank_missions)
     throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
@@ -144,8 +141,10 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   record::SeenRecordings seen;
   std::vector<std::string> repeated;
   (void)seen.see(files.recording);
-  for (const auto& [given, to] :
-       {std::pair{&options.source.holdouts, &files.holdouts}, {&options.nominals, &files.nominals}})
+  const std::vector<std::string> others(options.source.missions.begin() + 1, options.source.missions.end());
+  for (const auto& [given, to] : {std::pair{&others, &files.others},
+                                  {&options.source.holdouts, &files.holdouts},
+                                  {&options.nominals, &files.nominals}})
     std::copy_if(given->begin(), given->end(), std::back_inserter(*to),
                  [&](const std::string& file) { return seen.is_new(file, repeated); });
   if (!options.source.config.empty()) files.settings = config::load(options.source.config);
