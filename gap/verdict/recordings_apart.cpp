@@ -30,17 +30,10 @@ Evidence::Posterior posterior_of_rows(const ModelFit& best, const LinearGaussian
 }
 
 /// Part of a posterior that belongs to one effect, with the error of the model in one recording.
-OwnEstimate estimate_of(const Evidence::Posterior& posterior, std::span<const Eigen::Index> members,
+OwnEstimate estimate_of(const Evidence::Posterior& posterior, const std::vector<Eigen::Index>& members,
                         const Eigen::VectorXd& model_error) {
-  const auto n = static_cast<Eigen::Index>(members.size());
-  OwnEstimate own{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index a = members[static_cast<std::size_t>(i)];
-    own.mean[i] = posterior.mean[a];
-    for (Eigen::Index j = 0; j < n; ++j)
-      own.covariance(i, j) = posterior.covariance(a, members[static_cast<std::size_t>(j)]);
-    own.covariance(i, i) += model_error[a] * model_error[a];
-  }
+  OwnEstimate own{posterior.mean(members), posterior.covariance(members, members)};
+  own.covariance.diagonal() += model_error(members).cwiseAbs2();
   return own;
 }
 
@@ -146,24 +139,19 @@ void search_apart(const DiagnosisProblem& problem, Diagnosis& answer) {
 }
 
 void write_alone(Diagnosis& answer) {
+  const auto effects_of = [](const RecordingFinding& finding) {
+    const auto& effects = finding.alone->effects;
+    return effects.empty() ? "no effect" : fmt::format("{}", fmt::join(effects, " and "));
+  };
+  bool are_alike = true;
+  std::vector<std::string> parts;
   for (const RecordingFinding& finding : answer.recordings) {
     answer.remarks.push_back(fmt::format("{} alone: {} (probability {:.2f})", finding.recording,
-                                         finding.alone->effects.empty()
-                                             ? "no effect"
-                                             : fmt::format("{}", fmt::join(finding.alone->effects, " and ")),
-                                         finding.alone->probability));
+                                         effects_of(finding), finding.alone->probability));
+    parts.push_back(fmt::format("{} {}", finding.recording, effects_of(finding)));
+    are_alike = are_alike && finding.alone->effects == answer.recordings.front().alone->effects;
   }
-  const bool alike =
-      std::all_of(answer.recordings.begin(), answer.recordings.end(), [&](const RecordingFinding& each) {
-        return each.alone->effects == answer.recordings.front().alone->effects;
-      });
-  if (alike || answer.verdict != Verdict::unknown || answer.kind == UnknownKind::ambiguous) return;
-  std::vector<std::string> parts;
-  for (const RecordingFinding& each : answer.recordings) {
-    parts.push_back(fmt::format(
-        "{} {}", each.recording,
-        each.alone->effects.empty() ? "no effect" : fmt::format("{}", fmt::join(each.alone->effects, " and "))));
-  }
+  if (are_alike || answer.verdict != Verdict::unknown || answer.kind == UnknownKind::ambiguous) return;
   answer.sentence = fmt::format("No effects explain all recordings together. By themselves they show: {}.",
                                 fmt::join(parts, "; "));
 }
