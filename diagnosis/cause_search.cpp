@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "base/statistics.h"
@@ -207,14 +208,19 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
     const bool is_there = best && value < most + kSettledWithin_nats;
     best = std::move(fit);
     most = value;
-    if (is_there) break;
     best_at = at;
     best_change = change;
+    if (is_there) break;
     change = change_of(prior.of_changes(best->linear));
     const Eigen::VectorXd everywhere = prior.in_each(change);
     at = prior.posterior_mean(best->linear.about(everywhere)) + everywhere;
     // The begin may be anywhere.
     if (round == 0) most = -std::numeric_limits<double>::infinity();
+  }
+  if (best) {
+    const Likelihood changes = prior.of_changes(best->linear);
+    const Eigen::VectorXd farther = change_of(changes) - best_change;
+    best->is_settled = farther.dot(changes.information * farther) / 2 < kClass_nats;
   }
   return best;
 }
@@ -298,10 +304,15 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
   }
   result.sets = scores.ranked();
   // What only leads far from where it was linearised does not lead.
-  std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
-    leads = leads && !scores.is_fitted(one.causes);
+  const auto erased = std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
+    const auto fit = fits.find(one.causes);
+    leads = leads && (fit == fits.end() ? !scores.is_fitted(one.causes) : !fit->second.is_settled);
     return leads;
   });
+  const double rest = std::accumulate(result.sets.begin(), result.sets.end(), 0.0,
+                                      [](double sum, const ScoredSet& one) { return sum + one.probability; });
+  for (ScoredSet& one : result.sets)
+    if (erased > 0 && rest > 0) one.probability /= rest;
   const CauseSet& best = result.sets.front().causes;
   result.best = best.empty() ? std::move(*nominal) : std::move(fits.at(best));
   result.changes = prior.of_changes(result.best.linear);

@@ -69,6 +69,8 @@ struct RecordingFit {
   Likelihood
       linear;  ///< of departures from the nominal vehicle (CauseLibrary::columns(), of each of several recordings)
   Eigen::VectorXd at;  ///< where it was linearised
+  /// Its likelihood puts the causes for which it was made near `at`.
+  bool is_settled = true;
 };
 
 /// The error of a recording that no vehicle of the layout could have made, in words that name it.
