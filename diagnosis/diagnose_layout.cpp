@@ -90,7 +90,7 @@ void write_apart(const Judged& of, std::span<const RecordingModel* const> parts,
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto alone = search_causes(*parts[i], of.bank.prior, of.library,
                                      [&](double done) { of.progress(answer.recordings[i].recording, done); });
-    answer.recordings[i].alone.emplace().probability = alone.sets.front().probability;
+    answer.recordings[i].alone = gap::RecordingFinding::Alone{{}, alone.sets.front().probability};
     for (const std::size_t cause : alone.sets.front().causes)
       answer.recordings[i].alone->effects.push_back(of.library.causes[cause].words());
   }
