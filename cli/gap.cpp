@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,7 +40,7 @@ namespace {
 
 /// A simulator for which found effects are wanted, and the file for it.
 struct ExportFile {
-  report::Simulator simulator;
+  std::optional<report::Simulator> simulator;  ///< empty: a layout, corrected
   std::filesystem::path file;
 };
 
@@ -50,9 +52,12 @@ struct ExportOptions {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kLayout = "layout";
+
 std::string known_simulators() {
   std::vector<std::string_view> names;
   for (const auto simulator : report::kSimulators) names.push_back(report::name_of(simulator));
+  names.push_back(kLayout);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -60,16 +65,17 @@ ExportFile export_file(const std::string& wanted, const fs::path& origin) {
   const std::size_t equals = wanted.find('=');
   const std::string name = wanted.substr(0, equals);
   const auto simulator = report::simulator_named(name);
-  if (!simulator) {
+  if (!simulator && name != kLayout) {
     throw base::Failure(base::Exit::usage, fmt::format("--export {}: there is no simulator {}; known are {}",
                                                        wanted, name, known_simulators()));
   }
   if (equals == std::string::npos)
-    return {*simulator, origin.stem().string() + std::string(report::ending_of(*simulator))};
+    return {simulator,
+            origin.stem().string() + std::string(simulator ? report::ending_of(*simulator) : ".layout.toml")};
   const std::string file = wanted.substr(equals + 1);
   if (file.empty() || file == "-")
     throw base::Failure(base::Exit::usage, fmt::format("--export {}: name a file after =", wanted));
-  return {*simulator, file};
+  return {simulator, file};
 }
 
 void expect_no_such_file(const fs::path& file) {
@@ -80,9 +86,10 @@ void expect_no_such_file(const fs::path& file) {
 }
 
 void add_export_options(CLI::App* command, ExportOptions& options) {
-  add_repeatable(command, "--export", "NAME[=FILE]", options.wanted,
-                 "the effects found, for a simulator: sitl (ArduPilot), holoocean or stonefish; without FILE it "
-                 "has the recording's name; repeatable");
+  add_repeatable(
+      command, "--export", "NAME[=FILE]", options.wanted,
+      "the effects found, for a simulator: sitl (ArduPilot), holoocean or stonefish, or of a layout the "
+      "corrected layout; without FILE it has the recording's name; repeatable");
   command->add_flag("--overwrite", options.overwrite, "--export replaces files that exist");
 }
 
@@ -102,9 +109,10 @@ std::vector<ExportFile> export_files(const ExportOptions& options, const fs::pat
 /// Writes the files, and what each contains to standard error. Throws Failure, as export_files(), for a file that
 /// has come into being meanwhile, and std::system_error.
 void write_exports(const std::vector<ExportFile>& files, const ExportOptions& options,
-                   const report::CorrectedModel& model) {
-  for (const auto& [simulator, file] : files) {
-    const report::SimulatorFile content = report::simulator_file(simulator, model);
+                   const std::function<report::SimulatorFile(const ExportFile&)>& content_of) {
+  for (const auto& one : files) {
+    const fs::path& file = one.file;
+    const report::SimulatorFile content = content_of(one);
     if (!options.overwrite) expect_no_such_file(file);
     write_result(file, content.text);
     std::fputs(fmt::format("navcal: {}: {}\n", file.string(), content.summary).c_str(), stderr);
@@ -130,9 +138,6 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (options.where.field_uT())
     throw std::invalid_argument(
         "--field: the diagnosis of a layout takes the heading's offset from each recording");
-  if (options.source.missions.size() > 1)
-    throw std::invalid_argument(
-        "several recordings together: not yet for a layout; diagnose one, and hold out others");
   if (options.bank_missions != gap::Request{}.bank_missions)
     throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
@@ -144,8 +149,10 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   record::SeenRecordings seen;
   std::vector<std::string> repeated;
   (void)seen.see(files.recording);
-  for (const auto& [given, to] :
-       {std::pair{&options.source.holdouts, &files.holdouts}, {&options.nominals, &files.nominals}})
+  const std::vector<std::string> others(options.source.missions.begin() + 1, options.source.missions.end());
+  for (const auto& [given, to] : {std::pair{&others, &files.others},
+                                  {&options.source.holdouts, &files.holdouts},
+                                  {&options.nominals, &files.nominals}})
     std::copy_if(given->begin(), given->end(), std::back_inserter(*to),
                  [&](const std::string& file) { return seen.is_new(file, repeated); });
   if (!options.source.config.empty()) files.settings = config::load(options.source.config);
@@ -188,7 +195,15 @@ void write_models(const gap::Diagnosis& diagnosis, const GapCommandOptions& opti
                   const std::vector<ExportFile>& exports) {
   const auto& source = options.source;
   if (!source.effects_file.empty()) write_result(source.effects_file, report::gap_effects_file(diagnosis));
-  if (!exports.empty()) write_exports(exports, options.exports, corrected_model(diagnosis, options));
+  if (exports.empty()) return;
+  if (const auto layout = layout_of(options)) {
+    write_exports(exports, options.exports,
+                  [&](const auto&) { return report::corrected_layout(diagnosis, options.origin(), *layout); });
+  } else {
+    const report::CorrectedModel model = corrected_model(diagnosis, options);
+    write_exports(exports, options.exports,
+                  [&](const ExportFile& one) { return report::simulator_file(*one.simulator, model); });
+  }
 }
 
 void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
@@ -205,7 +220,15 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
   const auto& source = options.source;
   std::vector<std::filesystem::path> outputs{options.json, options.report, source.effects_file};
   std::vector<ExportFile> exports = export_files(options.exports, options.origin());
-  for (const auto& [simulator, file] : exports) outputs.push_back(file);
+  const bool has_layout = !exports.empty() && layout_of(options).has_value();
+  for (const auto& [simulator, file] : exports) {
+    outputs.push_back(file);
+    if (simulator.has_value() == has_layout)
+      throw base::Failure(base::Exit::usage,
+                          has_layout
+                              ? "--export: of a layout only the layout itself can be written: --export layout"
+                              : "--export layout needs a layout (--vehicle)");
+  }
   std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
   inputs.insert(inputs.end(), options.nominals.begin(), options.nominals.end());
   inputs.insert(inputs.end(), source.missions.begin(), source.missions.end());

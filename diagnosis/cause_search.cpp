@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "base/statistics.h"
@@ -109,7 +110,7 @@ double log_prior_of(const Eigen::VectorXd& change, const CauseSet& set, const Ca
 /// Of the departures where a recording was linearised, but for a constant and the prior of the change.
 double log_posterior(const RecordingFit& fit, const Eigen::VectorXd& at, const JointPrior& prior,
                      const Eigen::VectorXd& change) {
-  const Eigen::VectorXd apart = at - change - prior.mean;
+  const Eigen::VectorXd apart = at - prior.in_each(change) - prior.mean;
   return fit.linear.about(at).value - prior.root.triangularView<Eigen::Lower>().solve(apart).squaredNorm() / 2;
 }
 
@@ -179,16 +180,21 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
                                     const Eigen::VectorXd& from, const ChangeOf& change_of,
                                     const LogPriorOf& log_prior_of) {
   std::optional<RecordingFit> best;
-  Eigen::VectorXd at = from, best_at = at, change = Eigen::VectorXd::Zero(from.size()), best_change = change;
+  const Eigen::Index own = from.size() / prior.recordings;
+  Eigen::VectorXd at = from, best_at = at, change = Eigen::VectorXd::Zero(own), best_change = change;
   double most = 0;
   for (int round = 0; round < kMostSettlings; ++round) {
     auto fit = recording.fit(at);
     if (!fit && !best) break;
     if (fit) {
       // What a bound cuts off, it cuts off the change. A tolerance may lie beyond it: there it is extrapolated.
-      const Eigen::VectorXd cut_off = (change.array() != 0).select(fit->at - at, 0.0);
+      Eigen::VectorXd cut_off = Eigen::VectorXd::Zero(own);
+      for (Eigen::Index i = 0; i < prior.recordings; ++i) {
+        const Eigen::VectorXd here = (fit->at - at).segment(i * own, own);
+        cut_off = (change.array() != 0 && here.array().abs() > cut_off.array().abs()).select(here, cut_off);
+      }
       change += cut_off;
-      at += cut_off;
+      at += prior.in_each(cut_off);
     }
     const double value = fit ? log_posterior(*fit, at, prior, change) + log_prior_of(change)
                              : -std::numeric_limits<double>::infinity();
@@ -202,13 +208,19 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
     const bool is_there = best && value < most + kSettledWithin_nats;
     best = std::move(fit);
     most = value;
-    if (is_there) break;
     best_at = at;
     best_change = change;
+    if (is_there) break;
     change = change_of(prior.of_changes(best->linear));
-    at = prior.posterior_mean(best->linear.about(change)) + change;
+    const Eigen::VectorXd everywhere = prior.in_each(change);
+    at = prior.posterior_mean(best->linear.about(everywhere)) + everywhere;
     // The begin may be anywhere.
     if (round == 0) most = -std::numeric_limits<double>::infinity();
+  }
+  if (best) {
+    const Likelihood changes = prior.of_changes(best->linear);
+    const Eigen::VectorXd farther = change_of(changes) - best_change;
+    best->is_settled = farther.dot(changes.information * farther) / 2 < kClass_nats;
   }
   return best;
 }
@@ -246,7 +258,7 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
     const auto estimated = [&](const Likelihood& changes) {
       return SetEvidence(changes, library).posterior(set).among(library.columns());
     };
-    const Eigen::VectorXd begin = estimated(prior.of_changes(here->linear));
+    const Eigen::VectorXd begin = prior.in_each(estimated(prior.of_changes(here->linear)));
     auto there = settled(recording, prior, prior.posterior_mean(here->linear.about(begin)) + begin, estimated,
                          [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library); });
     if (!there) {
@@ -292,10 +304,15 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
   }
   result.sets = scores.ranked();
   // What only leads far from where it was linearised does not lead.
-  std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
-    leads = leads && !scores.is_fitted(one.causes);
+  const auto erased = std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
+    const auto fit = fits.find(one.causes);
+    leads = leads && (fit == fits.end() ? !scores.is_fitted(one.causes) : !fit->second.is_settled);
     return leads;
   });
+  const double rest = std::accumulate(result.sets.begin(), result.sets.end(), 0.0,
+                                      [](double sum, const ScoredSet& one) { return sum + one.probability; });
+  for (ScoredSet& one : result.sets)
+    if (erased > 0 && rest > 0) one.probability /= rest;
   const CauseSet& best = result.sets.front().causes;
   result.best = best.empty() ? std::move(*nominal) : std::move(fits.at(best));
   result.changes = prior.of_changes(result.best.linear);

@@ -16,6 +16,7 @@
 #include "diagnosis/layout_verdict.h"
 #include "diagnosis/nominal_bank.h"
 #include "diagnosis/steady_recording.h"
+#include "gap/verdict/recordings_apart.h"
 
 namespace navcal::diagnosis {
 namespace {
@@ -23,43 +24,142 @@ namespace {
 using gap::Diagnosis;
 using identify::RecordedMotion;
 
+std::string file_name(const RecordedMotion& recording) {
+  return std::filesystem::path(recording.name).filename().string();
+}
+/// What is said of one of several recordings begins with its name.
+std::string subject(const RecordedMotion& recording, const LayoutRecordings& recordings) {
+  return recordings.others.empty() ? "" : file_name(recording) + ": ";
+}
+
+/// Several recordings that were judged together, and what was found in them.
+struct Judged {
+  const CauseLibrary& library;
+  const ModelSource& source;
+  const NominalBank& bank;
+  const CauseSearchResult& found;
+  const LayoutProgress& progress;
+};
+
+/// Predicts each of several recordings by the others.
+std::vector<ExplainedRecording> predicted_by_others(const Judged& of, std::vector<const RecordingModel*> parts) {
+  std::vector<ExplainedRecording> explained;
+  const JointPrior prior = of.bank.prior_of(parts.size() - 1);
+  Eigen::VectorXd at = of.found.best.at;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    of.progress("prediction of " + parts.front()->recording().name, 0);
+    const auto others = of.source.joined(std::span(parts).subspan(1))->fit(at.tail(prior.mean.size()));
+    if (others) {
+      CauseSearchResult by_others = of.found;
+      by_others.changes = prior.of_changes(others->linear);
+      explained.push_back(held_out(*parts.front(), of.bank.prior, of.library, by_others));
+    }
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+    std::rotate(at.begin(), at.begin() + of.library.columns(), at.end());
+  }
+  return explained;
+}
+
+/// What each of several recordings says by itself.
+void write_apart(const Judged& of, std::span<const RecordingModel* const> parts, Diagnosis& answer) {
+  const CauseSet& best = of.found.sets.front().causes;
+  std::vector<SetEvidence::Posterior> estimates;
+  const Eigen::VectorXd& at = of.found.best.at;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    answer.recordings.push_back({file_name(parts[i]->recording()), {}, {}});
+    // Where the scatter is in the likelihood, all of them were linearised at the same departures.
+    const Eigen::Index first = static_cast<Eigen::Index>(i) * of.library.columns() % at.size();
+    const auto here = parts[i]->fit(at.segment(first, of.library.columns()));
+    if (!here) throw cannot_follow(parts[i]->recording());
+    estimates.push_back(SetEvidence(of.bank.prior.of_changes(here->linear), of.library).posterior(best));
+  }
+  Eigen::Index first = 0;
+  for (const std::size_t cause : best) {
+    const Eigen::Index count = std::ssize(of.library.causes[cause].parameters);
+    std::vector<gap::EffectFinding> findings;
+    std::vector<gap::OwnEstimate> own;
+    for (const SetEvidence::Posterior& each : estimates) {
+      findings.push_back(finding_of(of.library.causes[cause], 0, each));
+      own.push_back({each.mean.segment(first, count), each.covariance.block(first, first, count, count)});
+    }
+    gap::write_own_estimates(std::move(findings), own, answer);
+    first += count;
+  }
+  const bool differ = std::ranges::any_of(answer.differences, &gap::EffectDifference::differs);
+  if (of.bank.powers.empty() || (!differ && answer.verdict != gap::Verdict::unknown)) return;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto alone = search_causes(*parts[i], of.bank.prior, of.library,
+                                     [&](double done) { of.progress(answer.recordings[i].recording, done); });
+    answer.recordings[i].alone = gap::RecordingFinding::Alone{{}, alone.sets.front().probability};
+    for (const std::size_t cause : alone.sets.front().causes)
+      answer.recordings[i].alone->effects.push_back(of.library.causes[cause].words());
+  }
+  const std::string sentence = answer.sentence;
+  gap::write_alone(answer);
+  // That one of them alone shows too little is no contradiction.
+  if (answer.kind != gap::UnknownKind::outside) answer.sentence = sentence;
+}
+
 void find_causes(const LayoutRequest& request, const LayoutRecordings& recordings, const CauseLibrary& library,
                  ModelSource& source, const LayoutProgress& progress, Diagnosis& answer) {
-  const RecordedMotion& recording = recordings.recording;
   answer.remarks.insert(answer.remarks.end(), library.not_judged.begin(), library.not_judged.end());
-  const NominalBank bank = bank_of(source, library, recordings.nominals, recording,
-                                   [&](double done) { progress("nominal recordings", done); });
+  NominalBank bank = bank_of(source, library, recordings.nominals, recordings.recording,
+                             [&](double done) { progress("nominal recordings", done); });
   answer.remarks.push_back(
       bank.powers.empty()
           ? std::string("no nominal recording was given (--nominal): there is no floor, and no cause is named")
       : bank.powers.size() == 1 ? "the floor is that of 1 nominal recording, which does not show how recordings "
                                   "differ: give more (--nominal)"
                                 : fmt::format("the floor is that of {} nominal recordings", bank.powers.size()));
-  const auto compared = source.compared(recording, bank.prior.mean);
-  const RecordingModel& mine = *compared;
-  for (const std::string& oddity : mine.oddities()) answer.remarks.push_back(oddity);
+  std::vector<std::unique_ptr<RecordingModel>> compared;
+  std::vector<const RecordingModel*> parts;
+  answer.duration_s = 0;
+  for (const RecordedMotion* recording : recordings.together()) {
+    try {
+      compared.push_back(source.compared(*recording, bank.prior.mean));
+    } catch (const std::invalid_argument& error) {
+      if (recordings.others.empty()) throw;
+      answer.remarks.push_back("left out: " + std::string(error.what()));
+      continue;
+    }
+    parts.push_back(compared.back().get());
+    answer.duration_s += recording->duration_s;
+    for (const std::string& oddity : parts.back()->oddities())
+      answer.remarks.push_back(subject(*recording, recordings) + oddity);
+  }
+  if (parts.empty()) throw std::invalid_argument("none of the recordings can be judged; " + answer.remarks.back());
+  const bool are_several = parts.size() > 1;
+  if (are_several) {
+    compared.push_back(source.joined(parts));
+    bank.expect(parts.size(), library);
+  }
+  const RecordingModel& mine = *compared.back();
+  const JointPrior prior = bank.prior_of(parts.size());
   const CauseSearchResult found =
-      search_causes(mine, bank.prior, library, [&](double done) { progress("search", done); });
+      search_causes(mine, prior, library, [&](double done) { progress("search", done); });
   ExplainedRecording itself;
-  itself.before = mine.power(mine.own_departures(bank.prior, found.none)).value_or(RecordingPower{});
+  itself.before = mine.power(mine.own_departures(prior, found.none)).value_or(RecordingPower{});
   const auto with = [&](const CauseSet& set) {
     ExplainedRecording changed = itself;
-    const auto by = SetEvidence(found.changes, library).posterior(set).among(library.columns());
+    const Eigen::VectorXd by =
+        prior.in_each(SetEvidence(found.changes, library).posterior(set).among(library.columns()));
     changed.after =
-        mine.power(mine.own_departures(bank.prior, found.best.linear.about(by)) + by).value_or(itself.before);
+        mine.power(mine.own_departures(prior, found.best.linear.about(by)) + by).value_or(itself.before);
     return changed;
   };
   itself = with(found.sets.front().causes);
   answer.where = louder_channels(itself.before, bank.powers);
   answer.where.insert(answer.where.end(), itself.before.apart.begin(), itself.before.apart.end());
+  const Judged judged{library, source, bank, found, progress};
   std::vector<ExplainedRecording> explained;
   if (!found.sets.front().causes.empty()) {
     for (const RecordedMotion& other : recordings.holdouts) {
       progress("held out " + other.name, 0);
       explained.push_back(held_out(*source.compared(other, bank.prior.mean), bank.prior, library, found));
     }
+    if (are_several && explained.empty()) explained = predicted_by_others(judged, parts);
   }
-  answer.gap.held_out = !explained.empty();
+  answer.gap.held_out = !explained.empty() && !recordings.holdouts.empty();
   answer.gap.pooled =
       closure_of(explained.empty() ? std::span(&itself, 1) : std::span(explained.data(), explained.size()),
                  bank.floor().mean, request.seed);
@@ -68,6 +168,11 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
     return closure_of(std::span(&one, 1), bank.floor().mean, request.seed);
   };
   write_verdict({library, bank, found, itself.after, explained, closure, itself.before.mean_square}, answer);
+  if (!are_several) return;
+  if (!explained.empty() && recordings.holdouts.empty())
+    answer.remarks.emplace_back(
+        "no recording was held out: each was predicted by the others, which is weaker (--holdout)");
+  write_apart(judged, parts, answer);
 }
 
 void leave_out(std::span<const gap::Quantity> quantities, RecordedMotion& motion) {
@@ -83,12 +188,21 @@ void leave_out(std::span<const gap::Quantity> quantities, RecordedMotion& motion
 
 }  // namespace
 
+std::vector<const RecordedMotion*> LayoutRecordings::together() const {
+  std::vector<const RecordedMotion*> all{&recording};
+  for (const RecordedMotion& other : others) all.push_back(&other);
+  return all;
+}
+
 Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
                    const LayoutProgress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   Diagnosis answer;
-  answer.duration_s = recordings.recording.duration_s;
-  answer.remarks = recordings.recording.remarks;
+  for (const RecordedMotion* recording : recordings.together()) {
+    answer.duration_s += recording->duration_s;
+    for (const std::string& remark : recording->remarks)
+      answer.remarks.push_back(subject(*recording, recordings) + remark);
+  }
   const Diagnosis empty = answer;
   // Why the recording is not judged so; empty: it is.
   const auto judge = [&](const auto& find) -> std::string {
@@ -111,7 +225,7 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
   }
   if (!reason.empty()) {
     const std::string why_not = judge([&] {
-      const CauseLibrary told = steady_causes_of(request.layout, recordings.recording, library);
+      const CauseLibrary told = steady_causes_of(request.layout, recordings.together(), library);
       SteadySource source(request.layout, told);
       find_causes(request, recordings, told, source, progress, answer);
     });
@@ -135,7 +249,8 @@ LayoutRecordings load(const LayoutFiles& files, const LayoutProgress& progress) 
     leave_out(files.without, motion);
     return motion;
   };
-  LayoutRecordings recordings{one(files.recording), {}, {}};
+  LayoutRecordings recordings{one(files.recording), {}, {}, {}};
+  for (const auto& file : files.others) recordings.others.push_back(one(file));
   for (const auto& file : files.holdouts) recordings.holdouts.push_back(one(file));
   for (const auto& file : files.nominals) recordings.nominals.push_back(one(file));
   return recordings;

@@ -33,6 +33,12 @@ struct LayoutRecordings {
   std::vector<identify::RecordedMotion> holdouts;  ///< other recordings of the same vehicle; may be none
   std::vector<identify::RecordedMotion>
       nominals;  ///< recordings without a gap, which give the floor; without any no cause is named
+  /// Recordings with the same causes, which are diagnosed together with `recording`; may be none. One that cannot
+  /// be judged is left out, with a remark.
+  std::vector<identify::RecordedMotion> others{};
+
+  /// `recording` and `others`.
+  [[nodiscard]] std::vector<const identify::RecordedMotion*> together() const;
 };
 
 /// The same as files: captures or logs.
@@ -42,12 +48,13 @@ struct LayoutFiles {
   std::optional<config::Settings> settings;  ///< of all recordings, instead of their own
   record::TimeWindow window{};               ///< the part of all recordings that counts
   std::vector<gap::Quantity> without{};      ///< left out of all recordings
+  std::vector<std::filesystem::path> others{};
 };
 
 /// Gets the current step and the share of it that is done (0 to 1); may throw to end the work.
 using LayoutProgress = std::function<void(std::string_view what, double done)>;
 
-/// Diagnoses a recording (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded
+/// Diagnoses recordings (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded
 /// name that is no cause. A recording that cannot be diagnosed gets the verdict `unknown` and remarks that say
 /// why.
 [[nodiscard]] gap::Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,

@@ -76,21 +76,6 @@ Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
   return member;
 }
 
-gap::EffectFinding finding_of(const Cause& cause, double probability, const SetEvidence::Posterior& estimate) {
-  gap::EffectFinding finding{};
-  finding.name = cause.name;
-  finding.of = cause.of;
-  finding.probability = std::min(probability, 1.0);  // a sum of rounded shares
-  finding.manoeuvre = cause.manoeuvre;
-  for (const CauseParameter& parameter : cause.parameters) {
-    const auto at = std::find(estimate.columns.begin(), estimate.columns.end(), parameter.column);
-    const auto i = at - estimate.columns.begin();
-    finding.parameters.push_back(
-        {parameter.name, estimate.mean[i] / parameter.per_unit, estimate.std(i) / parameter.per_unit});
-  }
-  return finding;
-}
-
 std::string names_of(const std::vector<gap::EffectFinding>& effects) {
   std::vector<std::string> words;
   for (const gap::EffectFinding& one : effects) {
@@ -280,6 +265,21 @@ std::string words_of(std::span<const gap::LeastVisible> least) {
 }
 
 }  // namespace
+
+gap::EffectFinding finding_of(const Cause& cause, double probability, const SetEvidence::Posterior& estimate) {
+  gap::EffectFinding finding{};
+  finding.name = cause.name;
+  finding.of = cause.of;
+  finding.probability = std::min(probability, 1.0);  // a sum of rounded shares
+  finding.manoeuvre = cause.manoeuvre;
+  for (const CauseParameter& parameter : cause.parameters) {
+    const auto at = std::find(estimate.columns.begin(), estimate.columns.end(), parameter.column);
+    const auto i = at - estimate.columns.begin();
+    finding.parameters.push_back(
+        {parameter.name, estimate.mean[i] / parameter.per_unit, estimate.std(i) / parameter.per_unit});
+  }
+  return finding;
+}
 
 std::vector<gap::WhereEntry> louder_channels(const RecordingPower& of, std::span<const RecordingPower> nominal) {
   std::vector<gap::WhereEntry> louder;

@@ -11,6 +11,10 @@
 
 namespace navcal::diagnosis {
 
+/// A cause with its sizes by an estimate of a set that has it.
+[[nodiscard]] gap::EffectFinding finding_of(const Cause& cause, double probability,
+                                            const SetEvidence::Posterior& estimate);
+
 /// Channels whose noise power exceeds that of nominal recordings, most first.
 [[nodiscard]] std::vector<gap::WhereEntry> louder_channels(const RecordingPower& power,
                                                            std::span<const RecordingPower> nominal);

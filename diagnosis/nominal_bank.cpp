@@ -139,17 +139,22 @@ ColumnScatter scatter_among(const CauseLibrary& library, std::span<const Likelih
   return scatter;
 }
 
-JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatter& scatter) {
+JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatter& scatter, Eigen::Index count) {
   const Eigen::Index columns = scatter.vehicle.size();
-  JointPrior prior{Eigen::VectorXd::Zero(columns), {}};
+  JointPrior prior{Eigen::VectorXd::Zero(columns), {}, count};
   Eigen::MatrixXd covariance = scatter.vehicle.cwiseAbs2().asDiagonal();
   if (!recordings.empty()) {
     const Likelihood shared = shared_by(recordings, scatter);
     covariance = covariance_of(shared.information, scatter.vehicle);
     prior.mean = covariance * shared.score;
   }
-  covariance.diagonal() += scatter.session.cwiseAbs2();
-  prior.root = covariance.llt().matrixL();
+  const double share = count > 1 ? kSessionShare : 0;
+  const Eigen::VectorXd session = scatter.session.cwiseAbs2();
+  covariance.diagonal() += share * session;
+  Eigen::MatrixXd all = covariance.replicate(count, count);
+  all.diagonal() += ((1 - share) * session).replicate(count, 1);
+  prior.mean = prior.in_each(prior.mean);
+  prior.root = all.llt().matrixL();
   return prior;
 }
 
@@ -160,10 +165,29 @@ Floor NominalBank::floor() const {
   return floor_of(of_recordings);
 }
 
+JointPrior NominalBank::prior_of(std::size_t count) const {
+  return prior_from(recordings, scatter, static_cast<Eigen::Index>(modelled(count)));
+}
+
+void NominalBank::expect(std::size_t count, const CauseLibrary& library) {
+  chance_nats.assign(library.causes.size(), 0);
+  count = modelled(count);
+  const double more_nats = leads.class_nats * static_cast<double>(count);
+  leads.class_nats = std::max(leads.class_nats, std::min(more_nats, leads.named_nats));
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    std::vector<Likelihood> others = recordings;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const JointPrior prior_by_others = prior_from(others, scatter, static_cast<Eigen::Index>(count));
+    const std::vector<Likelihood> alike(count, recordings[i]);
+    const SetEvidence evidence(prior_by_others.of_changes(side_by_side(alike)), library);
+    for (std::size_t cause = 0; cause < library.causes.size(); ++cause)
+      chance_nats[cause] = std::max(chance_nats[cause], evidence.gain({cause}));
+  }
+}
+
 NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<const RecordedMotion> recordings,
                     const RecordedMotion& alone, const Progress& progress) {
   NominalBank bank;
-  bank.chance_nats.assign(library.causes.size(), 0);
   const std::span<const RecordedMotion> all = recordings.empty() ? std::span(&alone, 1) : recordings;
   std::vector<std::unique_ptr<RecordingModel>> models;
   for (const RecordedMotion& recording : all) models.push_back(source.nominal(recording));
@@ -185,20 +209,19 @@ NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<
     bank.leads = source.leads();
     // A recording alone may have a gap: it tells nothing of the vehicle without one.
     if (recordings.empty()) {
-      bank.prior = prior_from({}, scatter);
-      return bank;
+      linear.clear();
+      break;
     }
     if (!has_scatter) scatter = scatter_among(library, linear, scatter);
     bank.prior = prior_from(linear, scatter);
     for (std::size_t i = 0; i < all.size(); ++i) at[i] = bank.prior.posterior_mean(linear[i]);
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::vector<Likelihood> others = linear;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const SetEvidence evidence(prior_from(others, scatter).of_changes(linear[i]), library);
-    for (std::size_t cause = 0; cause < library.causes.size(); ++cause)
-      bank.chance_nats[cause] = std::max(bank.chance_nats[cause], evidence.gain({cause}));
-    if (auto power = models[i]->power(models[i]->own_departures(bank.prior, linear[i])))
+  bank.recordings = std::move(linear);
+  bank.scatter = std::move(scatter);
+  bank.prior = bank.prior_of(1);
+  bank.expect(1, library);
+  for (std::size_t i = 0; i < bank.recordings.size(); ++i) {
+    if (auto power = models[i]->power(models[i]->own_departures(bank.prior, bank.recordings[i])))
       bank.powers.push_back(std::move(*power));
   }
   return bank;

@@ -31,23 +31,36 @@ struct ColumnScatter {
 [[nodiscard]] ColumnScatter scatter_among(const CauseLibrary& library, std::span<const Likelihood> recordings,
                                           ColumnScatter scatter);
 
-/// Prior of another recording of a vehicle that has these ones.
-[[nodiscard]] JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatter& scatter);
+/// Prior of another recording of a vehicle that has these ones, or of `count` others side by side: the vehicle is
+/// the same in all, and of the variance between recordings the part kSessionShare.
+[[nodiscard]] JointPrior prior_from(std::span<const Likelihood> recordings, const ColumnScatter& scatter,
+                                    Eigen::Index count = 1);
 
 /// Nominal recordings of a vehicle: the floor of a diagnosis.
 struct NominalBank {
   JointPrior prior;                    ///< of another recording
   std::vector<RecordingPower> powers;  ///< of each one
   /// For each cause, the largest log evidence that a nominal recording has for it when the others are its prior,
-  /// nats.
+  /// nats. For several recordings that are judged together: that so many like it have.
   std::vector<double> chance_nats;
   Leads leads;
+  std::vector<Likelihood> recordings{};
+  ColumnScatter scatter{};
 
   [[nodiscard]] Floor floor() const;  ///< of the noise power of all channels together
+  /// Of `count` other recordings that are judged together.
+  [[nodiscard]] JointPrior prior_of(std::size_t count) const;
+  /// Makes `chance_nats` that of so many. Causes that one recording does not tell apart, because its model has
+  /// errors, many like it do not either, so `leads.class_nats` grows with their number up to the lead that names.
+  void expect(std::size_t count, const CauseLibrary& library);
+
+ private:
+  /// A joint model whose likelihood has the scatter in it is as one recording.
+  [[nodiscard]] std::size_t modelled(std::size_t count) const { return leads.has_scatter ? 1 : count; }
 };
 
-/// Throws std::invalid_argument in words. `recordings` may be empty: then the noises are those of `alone`, the
-/// prior has the tolerances, and there is no floor.
+/// For one recording. Throws std::invalid_argument in words. `recordings` may be empty: then the noises are those
+/// of `alone`, the prior has the tolerances, and there is no floor.
 [[nodiscard]] NominalBank bank_of(ModelSource& source, const CauseLibrary& library,
                                   std::span<const identify::RecordedMotion> recordings,
                                   const identify::RecordedMotion& alone, const Progress& progress);

@@ -51,8 +51,32 @@ Likelihood& Likelihood::operator+=(const Likelihood& other) {
   return *this;
 }
 
+Likelihood side_by_side(std::span<const Likelihood> recordings) {
+  const Eigen::Index own = recordings.front().score.size(), all = own * std::ssize(recordings);
+  Likelihood joined{.information = Eigen::MatrixXd::Zero(all, all), .score = Eigen::VectorXd(all)};
+  joined.freedom = recordings.front().freedom;
+  Eigen::Index at = 0;
+  for (const Likelihood& one : recordings) {
+    joined.information.block(at, at, own, own) = one.information;
+    joined.score.segment(at, own) = one.score;
+    joined.value += one.value;
+    joined.norm += one.norm;
+    at += own;
+  }
+  return joined;
+}
+
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, const Eigen::VectorXd& stds) {
   return stds.asDiagonal() * factor_of(information, stds.asDiagonal()).solve(Eigen::MatrixXd(stds.asDiagonal()));
+}
+
+Likelihood JointPrior::of_changes(const Likelihood& likelihood) const {
+  const Likelihood all = likelihood.about(mean).blurred(root);
+  if (recordings == 1) return all;
+  const Eigen::Index own = mean.size() / recordings;
+  const Eigen::MatrixXd alike = Eigen::MatrixXd::Identity(own, own).replicate(recordings, 1);
+  return {alike.transpose() * all.information * alike, alike.transpose() * all.score, all.value, all.norm,
+          all.freedom};
 }
 
 Eigen::VectorXd JointPrior::posterior_mean(const Likelihood& likelihood) const {
@@ -132,6 +156,44 @@ std::optional<RecordingPower> FittedRecording::power(const Eigen::VectorXd& at) 
   for (std::size_t c = 0; c < identify::kChannels; ++c)
     power.of_channel[c] = counts[c] > 0 ? squares[c] / counts[c] : -1;
   return power;
+}
+
+Eigen::VectorXd JoinedRecordings::of_part(const Eigen::VectorXd& at, std::size_t part) const {
+  const Eigen::Index own = at.size() / std::ssize(parts_);
+  return at.segment(own * static_cast<Eigen::Index>(part), own);
+}
+
+std::optional<RecordingFit> JoinedRecordings::fit(const Eigen::VectorXd& at) const {
+  std::vector<Likelihood> linear;
+  Eigen::VectorXd inside(at.size());
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    auto one = parts_[i]->fit(of_part(at, i));
+    if (!one) return std::nullopt;
+    inside.segment(one->at.size() * static_cast<Eigen::Index>(i), one->at.size()) = one->at;
+    linear.push_back(std::move(one->linear));
+  }
+  return RecordingFit{side_by_side(linear), std::move(inside)};
+}
+
+std::optional<RecordingPower> JoinedRecordings::power(const Eigen::VectorXd& at) const {
+  RecordingPower all;
+  double squares = 0, readings = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const auto one = parts_[i]->power(of_part(at, i));
+    if (!one) return std::nullopt;
+    for (std::size_t c = 0; c < identify::kChannels; ++c) {
+      all.of_channel[c] += std::max(one->of_channel[c], 0.0) * one->readings_of_channel[c];
+      all.readings_of_channel[c] += one->readings_of_channel[c];
+      readings += one->readings_of_channel[c];
+      squares += one->mean_square * one->readings_of_channel[c];
+    }
+    all.of_block.insert(all.of_block.end(), one->of_block.begin(), one->of_block.end());
+    all.readings.insert(all.readings.end(), one->readings.begin(), one->readings.end());
+  }
+  for (std::size_t c = 0; c < identify::kChannels; ++c)
+    all.of_channel[c] = all.readings_of_channel[c] > 0 ? all.of_channel[c] / all.readings_of_channel[c] : -1;
+  all.mean_square = squares / readings;
+  return all;
 }
 
 std::unique_ptr<RecordingModel> FilteredSource::nominal(const identify::RecordedMotion& recording) {

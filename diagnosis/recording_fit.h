@@ -40,18 +40,24 @@ struct Likelihood {
   Likelihood& operator+=(const Likelihood& other);
 };
 
+/// Of the unknowns of several recordings, those of the first one first, each independent of the others.
+[[nodiscard]] Likelihood side_by_side(std::span<const Likelihood> recordings);
+
 /// Covariance of normal unknowns with these standard deviations, behind readings with this information.
 [[nodiscard]] Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, const Eigen::VectorXd& stds);
 
-/// x ~ N(mean, root root^T).
+/// x ~ N(mean, root root^T), departures in one recording, or in each of several side by side.
 struct JointPrior {
   Eigen::VectorXd mean;
   Eigen::MatrixXd root;
+  Eigen::Index recordings = 1;
 
-  /// Likelihood of changes a of x, x itself integrated out.
-  [[nodiscard]] Likelihood of_changes(const Likelihood& likelihood) const {
-    return likelihood.about(mean).blurred(root);
+  /// The same change in each recording.
+  [[nodiscard]] Eigen::VectorXd in_each(const Eigen::VectorXd& change) const {
+    return change.replicate(recordings, 1);
   }
+  /// Likelihood of changes a of all recordings alike, x itself integrated out.
+  [[nodiscard]] Likelihood of_changes(const Likelihood& likelihood) const;
   [[nodiscard]] Eigen::VectorXd posterior_mean(const Likelihood& likelihood) const;
 };
 
@@ -60,8 +66,11 @@ using Progress = std::function<void(double)>;
 
 /// A recording linearised about some departures from the nominal vehicle and perfect instruments.
 struct RecordingFit {
-  Likelihood linear;   ///< of departures from the nominal vehicle (CauseLibrary::columns())
+  Likelihood
+      linear;  ///< of departures from the nominal vehicle (CauseLibrary::columns(), of each of several recordings)
   Eigen::VectorXd at;  ///< where it was linearised
+  /// Its likelihood puts the causes for which it was made near `at`.
+  bool is_settled = true;
 };
 
 /// The error of a recording that no vehicle of the layout could have made, in words that name it.
@@ -109,6 +118,26 @@ class RecordingModel : public NotCopied {
   [[nodiscard]] virtual std::vector<std::string> oddities() const = 0;
 };
 
+/// Recordings with the same causes, each with departures of its own besides. They must outlive it.
+class JoinedRecordings final : public RecordingModel {
+ public:
+  explicit JoinedRecordings(std::span<const RecordingModel* const> parts) : parts_(parts.begin(), parts.end()) {}
+
+  [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
+  /// Over all of them.
+  [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const override;
+  [[nodiscard]] Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood& here) const override {
+    return prior.posterior_mean(here);
+  }
+  [[nodiscard]] const identify::RecordedMotion& recording() const override { return parts_.front()->recording(); }
+  [[nodiscard]] std::vector<std::string> oddities() const override { return {}; }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd of_part(const Eigen::VectorXd& at, std::size_t part) const;
+
+  std::vector<const RecordingModel*> parts_;
+};
+
 /// Makes the models of a diagnosis.
 class ModelSource : public NotCopied {
  public:
@@ -120,6 +149,10 @@ class ModelSource : public NotCopied {
   /// A recording that is compared with a nominal vehicle of these departures.
   [[nodiscard]] virtual std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                                  const Eigen::VectorXd& nominal) const = 0;
+  /// Several of those as one model: with departures of each recording (JoinedRecordings), or where the likelihoods
+  /// have the scatter in them, of all. They must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<RecordingModel> joined(
+      std::span<const RecordingModel* const> compared) const = 0;
   /// Whether there is a scatter, at any time; the rest once the nominal models are refined.
   [[nodiscard]] virtual Leads leads() const = 0;
 };
@@ -174,6 +207,10 @@ class FilteredSource final : public ModelSource {
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const override;
+  [[nodiscard]] std::unique_ptr<RecordingModel> joined(
+      std::span<const RecordingModel* const> compared) const override {
+    return std::make_unique<JoinedRecordings>(compared);
+  }
   [[nodiscard]] Leads leads() const override;
 
  private:

@@ -76,8 +76,10 @@ double working_N(const config::Layout& layout, const sim::ActuatorValues& at) {
 
 SteadyRecording::SteadyRecording(const config::Layout& layout, const CauseLibrary& library,
                                  const identify::RecordedMotion& recording)
-    : layout_(layout), library_(library), recording_(recording), inputs_(layout_, recording) {
-  if (!inputs_.missing().empty()) throw std::invalid_argument(recording.name + ": " + inputs_.missing().front());
+    : layout_(layout), library_(library),
+      recording_(recording), inputs_{identify::ActuatorInputs(layout_, recording)} {
+  const auto missing = inputs_.front().missing();
+  if (!missing.empty()) throw std::invalid_argument(recording.name + ": " + missing.front());
   find_stretches();
   leave_out_idle();
   leave_out_apart();
@@ -97,10 +99,34 @@ SteadyRecording::SteadyRecording(const config::Layout& layout, const CauseLibrar
   covariance_.compute(own_covariance_);
 }
 
-void SteadyRecording::compare_with(const NominalBalances& nominal) {
+SteadyRecording::SteadyRecording(std::span<const RecordingModel* const> parts, const NominalBalances& nominal)
+    : layout_(dynamic_cast<const SteadyRecording&>(*parts.front()).layout_),
+      library_(dynamic_cast<const SteadyRecording&>(*parts.front()).library_),
+      recording_(parts.front()->recording()), own_covariance_(Eigen::MatrixXd::Zero(6, 6)) {
+  const auto count = static_cast<double>(parts.size());
+  Balances means(6, std::ssize(parts));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto& part = dynamic_cast<const SteadyRecording&>(*parts[i]);
+    inputs_.push_back(part.inputs_.front());
+    for (const Stretch& stretch : part.stretches_) {
+      stretches_.push_back(stretch);
+      stretches_.back().inputs = i;
+    }
+    // An error of what is not measured may be the same in all of them.
+    own_covariance_ += part.own_covariance_ / count;
+    means.col(static_cast<Eigen::Index>(i)) = part.balance();
+  }
+  const Balances apart = means.colwise() - means.rowwise().mean().eval();
+  const double squares = apart.cwiseProduct(nominal.scatter.llt().solve(apart)).sum();
+  const double apartness = std::min(squares / std::max(6 * (count - 1), 1.0), 1.0);
+  compare_with(nominal, 1 - apartness + apartness / count);
+}
+
+void SteadyRecording::compare_with(const NominalBalances& nominal, double scattered) {
   nominal_ = nominal.mean;
   const Eigen::VectorXd beyond = (own_covariance_.diagonal() - nominal.errors).cwiseMax(0);
-  covariance_.compute((1 + 1 / nominal.effective) * nominal.scatter + Eigen::MatrixXd(beyond.asDiagonal()));
+  covariance_.compute((scattered + 1 / nominal.effective) * nominal.scatter +
+                      Eigen::MatrixXd(beyond.asDiagonal()));
   freedom_ = nominal.freedom();
 }
 
@@ -123,7 +149,7 @@ void SteadyRecording::find_stretches() {
   const identify::GriddedMotion grid(recording_, Channel::water_x);
   const Channel depth = recording_.has(Channel::gauge_depth) ? Channel::gauge_depth : Channel::depth;
   for (std::size_t k = 0; k + kStretch < grid.rows; k += kStretch) {
-    Stretch stretch{kGrid_s * static_cast<double>(k), {}};
+    Stretch stretch{.begin_s = kGrid_s * static_cast<double>(k), .points = {}};
     for (std::size_t i = k; i <= k + kStretch; ++i) {
       sim::Body point;
       point.position_m = {0, 0, 10};  // away from the surface
@@ -166,7 +192,7 @@ void SteadyRecording::leave_out(const std::vector<bool>& of_stretches) {
 
 void SteadyRecording::leave_out_idle() {
   if (layout_.thrusters.empty() || stretches_.empty()) return;
-  const identify::ActuatorTrajectory actuators = inputs_.trajectory(layout_);
+  const identify::ActuatorTrajectory actuators = inputs_.front().trajectory(layout_);
   sim::ActuatorValues at = sim::ActuatorValues::neutral(layout_);
   std::vector<double> working;
   for (const Stretch& stretch : stretches_) {
@@ -216,7 +242,8 @@ config::Layout SteadyRecording::layout_with(const Eigen::VectorXd& values) const
 
 SteadyRecording::Balances SteadyRecording::balances(const config::Layout& layout, const MotionError& error) const {
   const sim::LayoutVehicle vehicle(layout);
-  const identify::ActuatorTrajectory actuators = inputs_.trajectory(layout);
+  std::vector<identify::ActuatorTrajectory> actuators;
+  for (const identify::ActuatorInputs& inputs : inputs_) actuators.push_back(inputs.trajectory(layout));
   sim::ActuatorValues at = sim::ActuatorValues::neutral(layout);
   Balances all(6, std::ssize(stretches_));
   for (std::size_t s = 0; s < stretches_.size(); ++s) {
@@ -224,7 +251,7 @@ SteadyRecording::Balances SteadyRecording::balances(const config::Layout& layout
     Vector6 force = Vector6::Zero();
     for (std::size_t k = 0; k < kStretch; ++k) {
       const sim::Body& point = stretch.points[k];
-      actuators.mean(stretch.begin_s + kGrid_s * static_cast<double>(k), kGrid_s, at);
+      actuators[stretch.inputs].mean(stretch.begin_s + kGrid_s * static_cast<double>(k), kGrid_s, at);
       force += vehicle.force(point.velocity + error.velocity, sim::down_of(point.euler_rad + error.euler_rad),
                              vehicle.hold(at)) /
                kStretch;
@@ -286,15 +313,23 @@ std::optional<RecordingPower> SteadyRecording::power(const Eigen::VectorXd& at) 
   return power;
 }
 
-CauseLibrary steady_causes_of(const config::Layout& layout, const identify::RecordedMotion& recording,
-                              CauseLibrary library) {
+CauseLibrary steady_causes_of(const config::Layout& layout,
+                              std::span<const identify::RecordedMotion* const> recordings, CauseLibrary library) {
   constexpr std::array<std::string_view, 8> kUntold{"added_mass",      "fin_dead_band", "fin_lag",
                                                     "fin_offset",      "thruster_lag",  "thruster_dead_band",
                                                     "thruster_offset", "yaw_damping"};
   std::erase_if(library.causes, [&](const Cause& cause) {
     return cause.is_instrument || std::find(kUntold.begin(), kUntold.end(), cause.name) != kUntold.end();
   });
-  const auto here = SteadyRecording(layout, library, recording).fit(Eigen::VectorXd::Zero(library.columns()));
+  const auto here = [&] {
+    for (std::size_t i = 0;; ++i) {
+      try {
+        return SteadyRecording(layout, library, *recordings[i]).fit(Eigen::VectorXd::Zero(library.columns()));
+      } catch (const std::invalid_argument&) {
+        if (i + 1 == recordings.size()) throw;
+      }
+    }
+  }();
   std::set<std::string> hidden;
   std::erase_if(library.causes, [&](const Cause& cause) {
     const bool is_hidden = std::ranges::none_of(cause.parameters, [&](const CauseParameter& parameter) {

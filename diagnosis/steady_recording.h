@@ -54,8 +54,13 @@ class SteadyRecording final : public RecordingModel {
   SteadyRecording(const config::Layout& layout, const CauseLibrary& library,
                   const identify::RecordedMotion& recording);
 
-  /// From here on balances are compared with these.
-  void compare_with(const NominalBalances& nominal);
+  /// Several of them as one long recording, compared with these balances: of one session, whose departures do not
+  /// average out, as far as they are alike. They depart from their mean in 6 (count - 1) numbers, which have the
+  /// mean square q in the scatter of nominal recordings; the scatter of their mean has the part 1 - q + q / count.
+  SteadyRecording(std::span<const RecordingModel* const> parts, const NominalBalances& nominal);
+
+  /// From here on balances are compared with these. `scattered`: part of the scatter between recordings.
+  void compare_with(const NominalBalances& nominal, double scattered = 1);
   /// Mean balance of the layout, N and Nm.
   [[nodiscard]] sim::Vector6 balance() const { return mean_balance(layout_); }
   /// Scatter of the balance by usual tolerances of the causes.
@@ -71,13 +76,14 @@ class SteadyRecording final : public RecordingModel {
     return prior.mean;
   }
   [[nodiscard]] const identify::RecordedMotion& recording() const override { return recording_; }
-  [[nodiscard]] std::vector<std::string> oddities() const override { return inputs_.oddities(layout_); }
+  [[nodiscard]] std::vector<std::string> oddities() const override { return inputs_.front().oddities(layout_); }
 
  private:
   /// Measured motion at the points of one stretch, every 0.1 s.
   struct Stretch {
     double begin_s = 0;
     std::vector<sim::Body> points;
+    std::size_t inputs = 0;
   };
   using Balances = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< one column for each stretch, N and Nm
 
@@ -100,7 +106,7 @@ class SteadyRecording final : public RecordingModel {
   config::Layout layout_;
   const CauseLibrary& library_;
   const identify::RecordedMotion& recording_;
-  identify::ActuatorInputs inputs_;
+  std::vector<identify::ActuatorInputs> inputs_;  ///< of each recording
   std::vector<Stretch> stretches_;
   Eigen::MatrixXd own_covariance_;  ///< of the mean balance in this recording
   sim::Vector6 nominal_ = sim::Vector6::Zero();
@@ -110,9 +116,11 @@ class SteadyRecording final : public RecordingModel {
 
 /// Effects of a layout that mean forces can tell: those of actuators and of the hull at rest that move the balance
 /// of this recording. Of an actuator the gain is one: the offset, the dead band and the gain of a steady command
-/// are not told apart. `library`: all causes of the layout. Throws as SteadyRecording does.
+/// are not told apart. `library`: all causes of the layout; the first recording that can be judged counts. Throws
+/// as SteadyRecording does.
 [[nodiscard]] CauseLibrary steady_causes_of(const config::Layout& layout,
-                                            const identify::RecordedMotion& recording, CauseLibrary library);
+                                            std::span<const identify::RecordedMotion* const> recordings,
+                                            CauseLibrary library);
 
 /// Recordings by their steady stretches. Layout and library must outlive it and its models.
 class SteadySource final : public ModelSource {
@@ -123,6 +131,10 @@ class SteadySource final : public ModelSource {
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const override;
+  [[nodiscard]] std::unique_ptr<RecordingModel> joined(
+      std::span<const RecordingModel* const> compared) const override {
+    return std::make_unique<SteadyRecording>(compared, balances_);
+  }
   [[nodiscard]] Leads leads() const override;
 
  private:

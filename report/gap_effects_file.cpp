@@ -57,7 +57,7 @@ std::string gap_effects_file(const gap::Diagnosis& diagnosis) {
       continue;
     }
     if (!known || !effect.of.empty()) {
-      text += fmt::format("\n# {}: the simulator has no such effect.\n", printable(effect.name));
+      text += fmt::format("\n# {}: the simulator has no such effect.\n", printable(effect.words()));
       continue;
     }
     text += fmt::format("\n[{}]  # probability {}\n", effect.name, probability_text(effect.probability));

@@ -83,9 +83,7 @@ gap::Verdict verdict_of(const SavedValue& value) {
 gap::EffectFinding finding_of(const SavedValue& value) {
   gap::EffectFinding finding;
   finding.name = value.at("name").text();
-  // No effect of this library belongs to one actuator of a layout: the same name must not act on the whole
-  // vehicle.
-  if (value.has("of")) finding.name += " of " + value.at("of").text();
+  if (value.has("of")) finding.of = value.at("of").text();
   finding.probability = value.at("probability").number();
   const SavedValue errors = value.at("std_errors");
   for (const auto& [name, number] : value.at("parameters").members()) {
@@ -105,9 +103,9 @@ std::vector<gap::EffectFinding> findings_of(const SavedValue& list) {
   std::vector<gap::EffectFinding> findings;
   for (const SavedValue& element : list.elements()) {
     findings.push_back(finding_of(element));
-    const auto same = [&](const auto& finding) { return finding.name == findings.back().name; };
+    const auto same = [&](const auto& finding) { return finding.words() == findings.back().words(); };
     if (std::count_if(findings.begin(), findings.end(), same) > 1)
-      element.refuse(findings.back().name + " is named twice");
+      element.refuse(findings.back().words() + " is named twice");
   }
   return findings;
 }

@@ -30,14 +30,21 @@ OrderedJson json_of(const gap::Confusion& confusion) {
           {"separation_nats", confusion.separation_nats}};
 }
 
+/// Name and, of a layout, the part that it belongs to.
+template <class Named>
+OrderedJson named(const Named& effect) {
+  OrderedJson json{{"name", effect.name}};
+  if (!effect.of.empty()) json["of"] = effect.of;
+  return json;
+}
+
 OrderedJson json_of(const gap::EffectFinding& effect) {
   OrderedJson parameters = OrderedJson::object(), errors = OrderedJson::object();
   for (const auto& parameter : effect.parameters) {
     parameters[parameter.name] = parameter.value;
     errors[parameter.name] = parameter.std_error;
   }
-  OrderedJson json{{"name", effect.name}};
-  if (!effect.of.empty()) json["of"] = effect.of;
+  OrderedJson json = named(effect);
   json.update(
       {{"probability", effect.probability},
        {"parameters", std::move(parameters)},
@@ -131,13 +138,9 @@ OrderedJson json_of(const gap::EarthField& field) {
 OrderedJson json_of(const gap::RecordingFinding& finding) {
   OrderedJson json{{"recording", finding.recording}};
   json["effects"] = list_of(finding.effects, [](const gap::EffectFinding& effect) {
-    OrderedJson values, errors;
-    for (const gap::EffectParameterEstimate& each : effect.parameters) {
-      values[each.name] = each.value;
-      errors[each.name] = each.std_error;
-    }
-    return OrderedJson{
-        {"name", effect.name}, {"parameters", std::move(values)}, {"std_errors", std::move(errors)}};
+    OrderedJson one = json_of(effect);
+    for (const char* of_all : {"probability", "confused_with"}) one.erase(of_all);
+    return one;
   });
   json["alone"] =
       finding.alone ? OrderedJson{{"effects", finding.alone->effects}, {"probability", finding.alone->probability}}
@@ -181,7 +184,9 @@ OrderedJson json_of(const gap::Proposal& proposal) {
 }
 
 OrderedJson json_of(const gap::EffectDifference& difference) {
-  return {{"name", difference.name}, {"p_value", difference.p_value}, {"differs", difference.differs}};
+  OrderedJson json = named(difference);
+  json.update({{"p_value", difference.p_value}, {"differs", difference.differs}});
+  return json;
 }
 
 OrderedJson json_of(const gap::LeastVisible& least) {

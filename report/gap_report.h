@@ -31,8 +31,7 @@ class BadDiagnosis : public base::Failure {
 };
 
 /// Reads what `navcal gap --json` wrote, as far as exports need it: verdict, sentence, effects and candidates
-/// with sizes and errors, and the Earth's field. Unknown keys are passed over; null is not-a-number. An effect
-/// with the key "of", the actuator of a layout that it belongs to, is named "thrust_scale of thruster.2". `name`
+/// with sizes and errors, and the Earth's field. Unknown keys are passed over; null is not-a-number. `name`
 /// stands for the file in messages. Throws BadDiagnosis.
 [[nodiscard]] gap::Diagnosis gap_from_json(std::string_view json, std::string_view name);
 

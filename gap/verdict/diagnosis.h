@@ -193,6 +193,7 @@ struct EffectDifference {
   std::string name;
   double p_value = 1;  ///< of estimates that differ as much by their errors
   bool differs = false;
+  std::string of = {};  ///< part of a layout that it belongs to
 };
 
 /// Smallest size of an effect that would have stood out.

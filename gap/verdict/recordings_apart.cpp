@@ -19,11 +19,6 @@
 namespace navcal::gap {
 namespace {
 
-struct OwnEstimate {
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
-};
-
 /// Estimates of the effects by some rows of the joint linear model.
 Evidence::Posterior posterior_of_rows(const ModelFit& best, const LinearGaussianModel& model, Eigen::Index from,
                                       Eigen::Index count, std::span<const Eigen::Index> members) {
@@ -35,17 +30,10 @@ Evidence::Posterior posterior_of_rows(const ModelFit& best, const LinearGaussian
 }
 
 /// Part of a posterior that belongs to one effect, with the error of the model in one recording.
-OwnEstimate estimate_of(const Evidence::Posterior& posterior, std::span<const Eigen::Index> members,
+OwnEstimate estimate_of(const Evidence::Posterior& posterior, const std::vector<Eigen::Index>& members,
                         const Eigen::VectorXd& model_error) {
-  const auto n = static_cast<Eigen::Index>(members.size());
-  OwnEstimate own{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index a = members[static_cast<std::size_t>(i)];
-    own.mean[i] = posterior.mean[a];
-    for (Eigen::Index j = 0; j < n; ++j)
-      own.covariance(i, j) = posterior.covariance(a, members[static_cast<std::size_t>(j)]);
-    own.covariance(i, i) += model_error[a] * model_error[a];
-  }
+  OwnEstimate own{posterior.mean(members), posterior.covariance(members, members)};
+  own.covariance.diagonal() += model_error(members).cwiseAbs2();
   return own;
 }
 
@@ -73,7 +61,7 @@ std::string difference_text(std::string_view effect, const std::vector<Recording
   std::vector<std::string> parts;
   for (const RecordingFinding& recording : recordings) {
     for (const EffectFinding& finding : recording.effects) {
-      if (finding.name != effect) continue;
+      if (finding.words() != effect) continue;
       std::vector<std::string> values;
       for (const EffectParameterEstimate& each : finding.parameters) {
         values.push_back(fmt::format("{} {:.3g} +- {:.2g}", each.name, each.value, each.std_error));
@@ -85,6 +73,15 @@ std::string difference_text(std::string_view effect, const std::vector<Recording
 }
 
 }  // namespace
+
+void write_own_estimates(std::vector<EffectFinding> findings, const std::vector<OwnEstimate>& estimates,
+                         Diagnosis& answer) {
+  const std::string words = findings.front().words();
+  const double p_value = homogeneity_p_value(estimates);
+  answer.differences.push_back({findings.front().name, p_value, p_value < kSignificantBelow, findings.front().of});
+  for (std::size_t k = 0; k < findings.size(); ++k) answer.recordings[k].effects.push_back(std::move(findings[k]));
+  if (p_value < kSignificantBelow) answer.remarks.push_back(difference_text(words, answer.recordings));
+}
 
 std::vector<Eigen::Index> rows_of_recordings(const DiagnosisProblem& problem) {
   std::vector<Eigen::Index> rows{
@@ -111,21 +108,18 @@ void compare_recordings(const DiagnosisProblem& problem, const FoundEffects& res
   for (const std::size_t effect : best.effects) {
     const auto own = parameter_indices(library, {effect});
     std::vector<OwnEstimate> estimates;
-    for (std::size_t k = 0; k < posteriors.size(); ++k) {
-      estimates.push_back(estimate_of(posteriors[k], own, model_error));
-      EffectFinding finding{std::string(library[effect].name), 0, {}, {}};
+    std::vector<EffectFinding> findings;
+    for (const Evidence::Posterior& posterior : posteriors) {
+      estimates.push_back(estimate_of(posterior, own, model_error));
+      findings.push_back({std::string(library[effect].name), 0, {}, {}});
       for (std::size_t i = 0; i < own.size(); ++i) {
         const auto at = static_cast<Eigen::Index>(i);
-        finding.parameters.push_back({std::string(library.unknowns()[static_cast<std::size_t>(own[i])].name),
-                                      estimates.back().mean[at], std::sqrt(estimates.back().covariance(at, at))});
+        findings.back().parameters.push_back(
+            {std::string(library.unknowns()[static_cast<std::size_t>(own[i])].name), estimates.back().mean[at],
+             std::sqrt(estimates.back().covariance(at, at))});
       }
-      answer.recordings[k].effects.push_back(std::move(finding));
     }
-    const double p_value = homogeneity_p_value(estimates);
-    answer.differences.push_back({std::string(library[effect].name), p_value, p_value < kSignificantBelow});
-    if (p_value < kSignificantBelow) {
-      answer.remarks.push_back(difference_text(library[effect].name, answer.recordings));
-    }
+    write_own_estimates(std::move(findings), estimates, answer);
   }
 }
 
@@ -140,23 +134,24 @@ void search_apart(const DiagnosisProblem& problem, Diagnosis& answer) {
     shown.probability = best.probability;
     for (const std::size_t effect : best.effects) shown.effects.emplace_back(problem.library[effect].name);
     finding.alone = std::move(shown);
-    answer.remarks.push_back(fmt::format("{} alone: {} (probability {:.2f})", finding.recording,
-                                         finding.alone->effects.empty()
-                                             ? "no effect"
-                                             : fmt::format("{}", fmt::join(finding.alone->effects, " and ")),
-                                         best.probability));
   }
-  const bool alike =
-      std::all_of(answer.recordings.begin(), answer.recordings.end(), [&](const RecordingFinding& each) {
-        return each.alone->effects == answer.recordings.front().alone->effects;
-      });
-  if (alike || answer.verdict != Verdict::unknown || answer.kind == UnknownKind::ambiguous) return;
+  write_alone(answer);
+}
+
+void write_alone(Diagnosis& answer) {
+  const auto effects_of = [](const RecordingFinding& finding) {
+    const auto& effects = finding.alone->effects;
+    return effects.empty() ? "no effect" : fmt::format("{}", fmt::join(effects, " and "));
+  };
+  bool are_alike = true;
   std::vector<std::string> parts;
-  for (const RecordingFinding& each : answer.recordings) {
-    parts.push_back(fmt::format(
-        "{} {}", each.recording,
-        each.alone->effects.empty() ? "no effect" : fmt::format("{}", fmt::join(each.alone->effects, " and "))));
+  for (const RecordingFinding& finding : answer.recordings) {
+    answer.remarks.push_back(fmt::format("{} alone: {} (probability {:.2f})", finding.recording,
+                                         effects_of(finding), finding.alone->probability));
+    parts.push_back(fmt::format("{} {}", finding.recording, effects_of(finding)));
+    are_alike = are_alike && finding.alone->effects == answer.recordings.front().alone->effects;
   }
+  if (are_alike || answer.verdict != Verdict::unknown || answer.kind == UnknownKind::ambiguous) return;
   answer.sentence = fmt::format("No effects explain all recordings together. By themselves they show: {}.",
                                 fmt::join(parts, "; "));
 }

@@ -18,6 +18,19 @@ namespace navcal::gap {
 void compare_recordings(const DiagnosisProblem& problem, const FoundEffects& result,
                         std::span<const std::string> names, Diagnosis& answer);
 
+/// Estimate of one effect by one recording alone.
+struct OwnEstimate {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+/// Writes what each of `answer.recordings` says of one effect, and whether that differs by `estimates`, which may
+/// be in other units.
+void write_own_estimates(std::vector<EffectFinding> findings, const std::vector<OwnEstimate>& estimates,
+                         Diagnosis& answer);
+/// Writes a remark on each of `answer.recordings` that was diagnosed alone, and the sentence of an unknown verdict
+/// where they do not agree.
+void write_alone(Diagnosis& answer);
+
 /// Diagnoses each recording alone, and writes which effects it would name into `answer.recordings`: where effects
 /// do not explain all recordings together, this shows what holds in one and not in another.
 void search_apart(const DiagnosisProblem& problem, Diagnosis& answer);

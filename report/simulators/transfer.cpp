@@ -44,9 +44,13 @@ std::string unusable(const gap::EffectFinding& finding) {
   return {};
 }
 
-std::vector<std::string> names_of(const std::vector<gap::EffectFinding>& findings) {
+const std::string& name_of(const TransferredEffect& effect) { return effect.name(); }
+std::string name_of(const gap::EffectFinding& finding) { return finding.words(); }
+
+template <class Effect>
+std::vector<std::string> names_of(const std::vector<Effect>& effects) {
   std::vector<std::string> names;
-  for (const auto& finding : findings) names.push_back(finding.name);
+  for (const Effect& effect : effects) names.push_back(name_of(effect));
   return names;
 }
 
@@ -61,9 +65,9 @@ double TransferredEffect::operator[](std::string_view parameter) const {
 Transfer::Transfer(const gap::Diagnosis& diagnosis, Simulator simulator) : simulator_(simulator) {
   if (diagnosis.verdict != gap::Verdict::explained) return;
   for (const auto& finding : diagnosis.effects) {
-    const Representation representation = representation_of(finding.name, simulator);
+    const Representation representation = representation_of(finding.words(), simulator);
     if (representation.fidelity == Fidelity::none) {
-      left_out_.push_back({finding.name, std::string(representation.text)});
+      left_out_.push_back({finding.words(), std::string(representation.text)});
     } else if (auto reason = unusable(finding); !reason.empty()) {
       left_out_.push_back({finding.name, std::move(reason)});
     } else {
@@ -113,14 +117,7 @@ std::vector<std::string> about(const CorrectedModel& model, const Transfer& tran
   if (const auto reason = why_no_correction(diagnosis); !reason.empty())
     paragraphs.push_back("This file contains " + reason + ".");
   if (!transfer.effects().empty())
-    paragraphs.push_back(fmt::format("Corrected: {}.", fmt::join(
-                                                           [&] {
-                                                             std::vector<std::string> names;
-                                                             for (const auto& effect : transfer.effects())
-                                                               names.push_back(effect.name());
-                                                             return names;
-                                                           }(),
-                                                           ", ")));
+    paragraphs.push_back(fmt::format("Corrected: {}.", fmt::join(names_of(transfer.effects()), ", ")));
   for (const auto& [effect, reason] : transfer.left_out())
     paragraphs.push_back(fmt::format("Left out: {}: {}.", effect, reason));
   paragraphs.emplace_back("Biases of the gyros are not exported: they differ at every power-on.");
@@ -130,8 +127,8 @@ std::vector<std::string> about(const CorrectedModel& model, const Transfer& tran
 
 std::string summary_of(const gap::Diagnosis& diagnosis, const Transfer& transfer) {
   if (auto reason = why_no_correction(diagnosis); !reason.empty()) return reason;
-  std::vector<std::string> carried, left_out;
-  for (const auto& effect : transfer.effects()) carried.push_back(effect.name());
+  const std::vector<std::string> carried = names_of(transfer.effects());
+  std::vector<std::string> left_out;
   for (const auto& [effect, reason] : transfer.left_out())
     left_out.push_back(fmt::format("{} ({})", effect, reason));
   std::string text =

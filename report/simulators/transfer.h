@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/layout.h"
 #include "config/vehicle.h"
 #include "devices/instrument_model.h"
 #include "gap/verdict/diagnosis.h"
@@ -94,6 +95,11 @@ struct SimulatorFile {
 /// and for MAVProxy's `param load`. One "NAME value" a line; comments begin with # and, since ArduPilot reads
 /// lines of at most 98 characters, are shorter than that.
 [[nodiscard]] SimulatorFile sitl_parameters(const CorrectedModel& model);
+
+/// A layout with the found effects, as a layout file. Errors of instruments are left out, which its comment and
+/// the summary say. `origin`: as in CorrectedModel.
+[[nodiscard]] SimulatorFile corrected_layout(const gap::Diagnosis& diagnosis, std::string_view origin,
+                                             config::Layout layout);
 
 /// Roll, pitch and yaw about fixed axes, rad, of R = Rz(yaw) Ry(pitch) Rx(roll): the convention of the
 /// rotations in files of HoloOcean and Stonefish.

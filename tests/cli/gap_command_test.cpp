@@ -9,9 +9,11 @@
 #include <optional>
 
 #include "cli/live/commands.h"
+#include "config/layout/layout_file.h"
 #include "gap/verdict/request.h"
 #include "gap/verdict/study.h"
 #include "report/gap_report.h"
+#include "sim/layout/effects/layout_effects.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/gap_samples.h"
 #include "tests/support/temporary_folder.h"
@@ -209,10 +211,30 @@ TEST_F(GapExportCommand, AFileThatExistsStays) {
   EXPECT_EQ(exported({"--overwrite", "--export", "sitl=" + at("a.json")}).status, 2) << "its own input";
 }
 
+TEST_F(GapExportCommand, ALayoutIsCorrectedAndNothingElseIsMadeOfIt) {
+  std::ofstream(folder_ / "a.json")
+      << R"({"verdict": "explained", "effects": [{"name": "thrust_scale", "of": "thruster.2",
+      "probability": 1, "parameters": {"scale": -0.2}, "std_errors": {"scale": 0.01}}]})";
+  const std::filesystem::path shipped = NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml";
+  std::filesystem::copy_file(shipped, folder_ / "auv.toml");
+  const Outcome outcome = exported({"--vehicle", at("auv.toml"), "--export", "layout=" + at("c.toml")});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  EXPECT_NE(outcome.message.find(at("c.toml") + ": thrust_scale of thruster.2"), std::string::npos);
+  const sim::LayoutEffect weak{sim::find_layout_effect("thrust_scale"), "thruster.2", {-0.2}};
+  EXPECT_EQ(config::layout_file(config::load_layout(folder_ / "c.toml")),
+            config::layout_file(sim::changed_layout(config::load_layout(shipped), weak)));
+  EXPECT_EQ(exported({"--vehicle", at("auv.toml"), "--export", "layout=" + at("c.toml")}).status, 1);
+  EXPECT_EQ(exported({"--vehicle", at("auv.toml"), "--overwrite", "--export", "layout=" + at("auv.toml")}).status,
+            2);
+  EXPECT_EQ(navcal::test::read_file(at("auv.toml")), navcal::test::read_file(shipped)) << "its own input";
+  EXPECT_EQ(exported({"--vehicle", at("auv.toml"), "--export", "sitl=" + at("x")}).status, 2);
+  EXPECT_EQ(exported({"--export", "layout=" + at("x")}).status, 2);
+}
+
 TEST_F(GapExportCommand, WrongUsageIsSaid) {
   EXPECT_NE(exported({"--export", "gazebo"})
                 .message.find("there is no simulator gazebo; known are sitl, holoocean, "
-                              "stonefish"),
+                              "stonefish, layout"),
             std::string::npos);
   for (const auto& arguments :
        std::vector<std::vector<std::string>>{{},

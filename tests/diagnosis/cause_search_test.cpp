@@ -210,5 +210,44 @@ TEST(NominalBank, TwoColumnsThatOnlyTheirSumIsKnownOfHideNoThirdCause) {
   EXPECT_LT(covariance(0, 0) + covariance(1, 1) + 2 * covariance(0, 1), 0.1 * 0.1);
 }
 
+/// Wherever it is linearised it promises 50 nats for one more of the first column, and keeps no promise.
+class Mirage final : public RecordingModel {
+ public:
+  [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override {
+    Likelihood here{Eigen::MatrixXd::Zero(at.size(), at.size()), Eigen::VectorXd::Zero(at.size()),
+                    -10 * std::abs(at[0]), 0};
+    here.information(0, 0) = here.score[0] = 100;
+    return RecordingFit{here.about(-at), at};
+  }
+  [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd&) const override { return std::nullopt; }
+  [[nodiscard]] Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood&) const override {
+    return prior.mean;
+  }
+  [[nodiscard]] const identify::RecordedMotion& recording() const override { return recording_; }
+  [[nodiscard]] std::vector<std::string> oddities() const override { return {}; }
+
+ private:
+  identify::RecordedMotion recording_;
+};
+
+// Three flights with a weak motor, each of which was named alone, had a reversed one together: its fit was given
+// up at a share of 0.03 and promised much for a share of 1.
+TEST(SearchCauses, ASetThatOnlyPromisesWhereItWasNotLinearisedDoesNotLead) {
+  CauseLibrary library;
+  library.causes = {{.name = "mirage",
+                     .of = {},
+                     .manoeuvre = {},
+                     .parameters = {{.name = "k", .low = -10, .high = 10, .column = 0}}}};
+  library.parameters.resize(1);
+  library.parameters[0].low = -10;
+  library.parameters[0].high = 10;
+  const Eigen::Index columns = library.columns();
+  const JointPrior prior{Eigen::VectorXd::Zero(columns), 1e-3 * Eigen::MatrixXd::Identity(columns, columns)};
+  const auto found = search_causes(Mirage(), prior, library, [](double) {});
+  ASSERT_EQ(found.sets.size(), 1U);
+  EXPECT_TRUE(found.sets[0].causes.empty());
+  EXPECT_DOUBLE_EQ(found.sets[0].probability, 1);
+}
+
 }  // namespace
 }  // namespace navcal::diagnosis

@@ -23,5 +23,21 @@ TEST(DiagnoseLayout, WithoutNominalRecordingsNothingIsNamed) {
   EXPECT_FALSE(answer.candidates.empty());
 }
 
+TEST(DiagnoseLayout, WhatHoldsInOneRecordingAndNotInAnotherIsSaid) {
+  const auto of = micro();
+  const gap::Diagnosis answer =
+      diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
+               {recording(of, changed(of.prior, "thrust_scale", "thruster.2", {-0.3}), 1),
+                {},
+                {recording(of, of.prior, 11), recording(of, of.prior, 31)},
+                {recording(of, of.prior, 21)}},
+               [](std::string_view, double) {});
+  EXPECT_NE(answer.verdict, gap::Verdict::explained) << answer.sentence;
+  ASSERT_EQ(answer.recordings.size(), 2U);
+  ASSERT_TRUE(answer.recordings[0].alone && answer.recordings[1].alone);
+  EXPECT_EQ(answer.recordings[0].alone->effects, std::vector<std::string>{"thrust_scale of thruster.2"});
+  EXPECT_TRUE(answer.recordings[1].alone->effects.empty());
+}
+
 }  // namespace
 }  // namespace navcal::diagnosis

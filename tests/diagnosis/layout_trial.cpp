@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A trial of the diagnosis of layouts on simulated recordings whose causes it is not told:
-//   layout_trial VEHICLE ARM COUNT SEED
-// VEHICLE as of identification_case.h, ARM none, actuator, hull or the name of an effect. One line for each case,
-// then counts.
+//   layout_trial VEHICLE ARM COUNT SEED [TOGETHER [SECONDS]]
+// TOGETHER: so many recordings of 90 s, or of SECONDS, are judged together, and none is held out. VEHICLE as of
+// identification_case.h, ARM none, actuator, hull or the name of an effect. One line for each case, then counts.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -68,7 +68,8 @@ identify::VehicleCase identified(identify::VehicleCase of) {
   return of;
 }
 
-int run(const std::string& vehicle, const std::string& arm, int count, std::uint64_t seed) {
+int run(const std::string& vehicle, const std::string& arm, int count, std::uint64_t seed, int together,
+        double seconds) {
   const identify::VehicleCase of = identified(identify::vehicle_case(vehicle));
   std::map<std::string, int> counts;
   for (int k = 0; k < count; ++k) {
@@ -77,11 +78,15 @@ int run(const std::string& vehicle, const std::string& arm, int count, std::uint
     config::Layout truth = identify::draw_vehicle(of, own).layout;
     truth.uncertainties.clear();
     const Drawn drawn = draw_effect(truth, effects_of_arm(truth, arm), random);
-    LayoutRecordings recordings{identify::draw_recording(of, drawn.layout, 90, own + 1, kInstrumentErrors),
+    LayoutRecordings recordings{identify::draw_recording(of, drawn.layout, seconds, own + 1, kInstrumentErrors),
                                 {identify::draw_recording(of, drawn.layout, 60, own + 3, kInstrumentErrors)},
                                 {identify::draw_recording(of, truth, 60, own + 5, kInstrumentErrors),
                                  identify::draw_recording(of, truth, 60, own + 7, kInstrumentErrors),
                                  identify::draw_recording(of, truth, 60, own + 9, kInstrumentErrors)}};
+    if (together > 0) recordings.holdouts.clear();
+    for (std::uint64_t other = 1; other < static_cast<std::uint64_t>(together); ++other)
+      recordings.others.push_back(
+          identify::draw_recording(of, drawn.layout, seconds, own + 11 + 2 * other, kInstrumentErrors));
     const auto begin = std::chrono::steady_clock::now();
     const gap::Diagnosis answer =
         diagnose({.layout = of.prior, .excluded = {}}, recordings, [](std::string_view, double) {});
@@ -112,9 +117,10 @@ int run(const std::string& vehicle, const std::string& arm, int count, std::uint
 }  // namespace navcal::diagnosis
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    fmt::print(stderr, "usage: layout_trial VEHICLE none|actuator|hull|EFFECT COUNT SEED\n");
+  if (argc < 5 || argc > 7) {
+    fmt::print(stderr, "usage: layout_trial VEHICLE none|actuator|hull|EFFECT COUNT SEED [TOGETHER [SECONDS]]\n");
     return 2;
   }
-  return navcal::diagnosis::run(argv[1], argv[2], std::atoi(argv[3]), std::strtoull(argv[4], nullptr, 10));
+  return navcal::diagnosis::run(argv[1], argv[2], std::atoi(argv[3]), std::strtoull(argv[4], nullptr, 10),
+                                argc > 5 ? std::atoi(argv[5]) : 0, argc > 6 ? std::atof(argv[6]) : 90);
 }

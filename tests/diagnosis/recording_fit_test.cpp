@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/nominal_bank.h"
 #include "tests/diagnosis/micro_case.h"
 
 namespace navcal::diagnosis {
@@ -32,6 +33,21 @@ TEST(RecordingFit, ItsValueFollowsItsScoreWhereGainsAreHeld) {
     ++tried;
   }
   EXPECT_GE(tried, 8);
+}
+
+/// Departures of one column, told with this information by each recording.
+TEST(JointPrior, RecordingsAverageOutWhatIsTheirsAndNotWhatTheyShare) {
+  const ColumnScatter scatter{Eigen::VectorXd::Constant(1, 2), Eigen::VectorXd::Constant(1, 3)};
+  const double information = 4;
+  const Likelihood one{Eigen::MatrixXd::Constant(1, 1, information), Eigen::VectorXd::Constant(1, 5), -1, 0};
+  for (const Eigen::Index count : {1, 2, 5}) {
+    const std::vector<Likelihood> all(static_cast<std::size_t>(count), one);
+    const Likelihood changes = prior_from({}, scatter, count).of_changes(side_by_side(all));
+    const double own = count == 1 ? 9 : 9 * (1 - kSessionShare);
+    EXPECT_NEAR(1 / changes.information(0, 0),
+                4 + (9 - own) + (own + 1 / information) / static_cast<double>(count), 1e-9);
+    EXPECT_NEAR(changes.score[0] / changes.information(0, 0), 5 / information, 1e-9);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "autopilot/thrust_curve.h"
@@ -68,13 +69,13 @@ RecordedMotion hover(const config::Layout& truth, std::uint64_t seed, double gro
   return motion;
 }
 
-gap::Diagnosis steady_diagnosis(const RecordedMotion& recording) {
+gap::Diagnosis steady_diagnosis(const RecordedMotion& recording, const std::vector<RecordedMotion>& others = {}) {
   const config::Layout layout = heavy_rov();
   std::vector<RecordedMotion> nominals;
   for (std::uint64_t day = 1; day <= 6; ++day) nominals.push_back(hover(of_day(layout, day), day));
   LayoutRequest request{.layout = layout, .excluded = {}, .threads = 1};
   request.is_steady = true;
-  return diagnose(request, {recording, {}, nominals}, [](std::string_view, double) {});
+  return diagnose(request, {recording, {}, nominals, others}, [](std::string_view, double) {});
 }
 
 TEST(SteadyRecording, NominalVehiclesHaveNoGap) {
@@ -114,6 +115,52 @@ TEST(SteadyRecording, ALoadIsNoWeakThruster) {
     EXPECT_TRUE(effect.name == "weight" || effect.name == "buoyancy") << answer.sentence;
 }
 
+config::Layout weak(std::uint64_t day) {
+  return changed(of_day(heavy_rov(), day), "thrust_scale", "thruster.7", {-0.2});
+}
+
+TEST(SteadyRecording, RecordingsOfOneSessionTellAsMuchAsOneAndThoseOfSeveralTellMore) {
+  const auto alone = steady_diagnosis(hover(weak(51), 51));
+  const auto session = steady_diagnosis(hover(weak(51), 51), {hover(weak(51), 52), hover(weak(51), 53)});
+  const auto days = steady_diagnosis(hover(weak(51), 51), {hover(weak(52), 52), hover(weak(53), 53)});
+  for (const gap::Diagnosis* answer : {&alone, &session, &days}) {
+    ASSERT_FALSE(answer->candidates.empty());
+    EXPECT_EQ(answer->candidates[0].words(), "thrust_scale of thruster.7") << answer->sentence;
+  }
+  const auto error = [](const gap::Diagnosis& answer) { return answer.candidates[0].parameters.at(0).std_error; };
+  EXPECT_NEAR(error(session), error(alone), 0.1 * error(alone));
+  EXPECT_LT(error(days), 0.95 * error(alone));
+  EXPECT_TRUE(alone.recordings.empty());
+  ASSERT_EQ(session.recordings.size(), 3U);
+  ASSERT_EQ(session.differences.size(), 1U);
+  EXPECT_EQ(session.differences[0].of, "thruster.7");
+  EXPECT_FALSE(session.differences[0].differs);
+  EXPECT_DOUBLE_EQ(session.duration_s, 3 * kDuration_s);
+}
+
+TEST(SteadyRecording, NominalRecordingsOfOneSessionTogetherHaveNoGap) {
+  int flagged = 0;
+  for (std::uint64_t day = 41; day < 45; ++day) {
+    const config::Layout truth = of_day(heavy_rov(), day);
+    const auto answer = steady_diagnosis(hover(truth, day), {hover(truth, day + 100), hover(truth, day + 200)});
+    EXPECT_TRUE(answer.effects.empty()) << day << ": " << answer.sentence;
+    if (answer.verdict != gap::Verdict::no_gap) ++flagged;
+  }
+  EXPECT_LE(flagged, 1) << "by chance about one in fifty";
+}
+
+TEST(SteadyRecording, OneOfSeveralThatCannotBeJudgedIsNamedAndLeftOut) {
+  const RecordedMotion good = hover(weak(51), 51), short_one = hover(weak(51), 71, 0, 3);
+  for (const bool is_first : {true, false}) {
+    const auto answer = is_first ? steady_diagnosis(short_one, {good, good}) : steady_diagnosis(good, {short_one});
+    EXPECT_EQ(answer.recordings.size(), is_first ? 2U : 0U);
+    EXPECT_TRUE(std::ranges::any_of(
+        answer.remarks, [](const std::string& remark) { return remark.starts_with("left out: hover 71: "); }));
+    ASSERT_FALSE(answer.candidates.empty()) << answer.sentence;
+  }
+  EXPECT_NE(steady_diagnosis(short_one, {short_one}).sentence.find("at least 5 are needed"), std::string::npos);
+}
+
 TEST(SteadyRecording, AShortRecordingSaysWhatItLacks) {
   const auto answer = steady_diagnosis(hover(heavy_rov(), 71, 0, 3));
   EXPECT_EQ(answer.verdict, gap::Verdict::unknown);
@@ -125,7 +172,8 @@ TEST(SteadyRecording, TheBalanceOfATrueVehicleIsZeroWithinItsErrors) {
   const config::Layout layout = heavy_rov();
   const RecordedMotion recording = hover(layout, 81);
   const std::vector<std::string> none;
-  const CauseLibrary library = steady_causes_of(layout, recording, causes_of(layout, recording, none));
+  const CauseLibrary library =
+      steady_causes_of(layout, std::array{&recording}, causes_of(layout, recording, none));
   const auto power = SteadyRecording(layout, library, recording).power(Eigen::VectorXd::Zero(library.columns()));
   ASSERT_TRUE(power);
   EXPECT_LT(power->mean_square, 4);

@@ -66,7 +66,8 @@ TEST(GapFromJson, AnEffectOfOneActuatorIsNotThatOfTheVehicle) {
           {"name": "thrust_scale", "of": "thruster.2", "probability": 1, "parameters": {"scale": 0.2}, "std_errors": {}}]})",
       "a.json");
   ASSERT_EQ(back.effects.size(), 2U);
-  EXPECT_EQ(back.effects[0].name, "thrust_scale of thruster.1");
+  EXPECT_EQ(back.effects[0].words(), "thrust_scale of thruster.1");
+  EXPECT_NE(gap_effects_file(back).find("of = \"thruster.2\""), std::string::npos) << gap_effects_file(back);
   const SimulatorFile file = simulator_file(Simulator::stonefish, {back, "a.json", {}, {}});
   EXPECT_EQ(file.text.find("thrust_coeff"), std::string::npos);
   EXPECT_NE(file.summary.find("left out: thrust_scale of thruster.1 ("), std::string::npos) << file.summary;
