@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
-#include <utility>
-
 #include "base/angles.h"
 #include "config/layout/members.h"
 
@@ -14,12 +11,12 @@ namespace {
 
 using layout::Bounds;
 
-/// Looks for one key of a layout.
+/// Looks for one key of a layout; a fit asks thousands of times.
 class NumberTable {
  public:
   static constexpr bool kReads = false;
-  NumberTable(std::string prefix, std::string_view wanted, std::optional<LayoutNumbers>& found)
-      : prefix_(std::move(prefix)), wanted_(wanted), found_(found) {}
+  /// `wanted`: the key within this table.
+  NumberTable(std::string_view wanted, std::optional<LayoutNumbers>& found) : wanted_(wanted), found_(found) {}
 
   void number(std::string_view key, double& value, const Bounds& bounds) {
     add(key, bounds, {&value, 1, 1, bounds.true_unit, bounds.low >= 0, false});
@@ -42,7 +39,8 @@ class NumberTable {
     second();
   }
   void part(std::string_view key, bool, auto members) {
-    NumberTable table(prefix_ + std::string(key) + '.', wanted_, found_);
+    if (!wanted_.starts_with(key) || !wanted_.substr(key.size()).starts_with('.')) return;
+    NumberTable table(wanted_.substr(key.size() + 1), found_);
     members(table);
   }
   template <class Part>
@@ -63,10 +61,9 @@ class NumberTable {
 
  private:
   void add(std::string_view key, const Bounds& bounds, const LayoutNumbers& numbers) {
-    if (!bounds.is_setting && wanted_ == prefix_ + std::string(key)) found_ = numbers;
+    if (!bounds.is_setting && wanted_ == key) found_ = numbers;
   }
 
-  std::string prefix_;
   std::string_view wanted_;
   std::optional<LayoutNumbers>& found_;
 };
@@ -75,20 +72,25 @@ class NumberTable {
 
 std::optional<LayoutNumbers> find_numbers(Layout& vehicle, std::string_view key) {
   std::optional<LayoutNumbers> found;
-  NumberTable water("water.", key, found), body("body.", key, found), whole("", key, found);
-  water.number("density_kg_m3", vehicle.water_density_kg_m3, {-1, 1, "kg/m3"});
-  body.number("mass_kg", vehicle.body.mass_kg, {0, 1, "kg"});
-  body.numbers("gravity_centre_m", vehicle.body.gravity_centre_m, layout::kPlace);
-  body.numbers("buoyancy_centre_m", vehicle.body.buoyancy_centre_m, layout::kPlace);
-  body.numbers("inertia_kg_m2", vehicle.body.inertia_kg_m2, {-1, 1, "kg m2"});
-  if (vehicle.body.volume_m3 > 0) {
-    body.number("volume_m3", vehicle.body.volume_m3, {0, 1, "m3"});
-  } else if (!vehicle.body.is_neutral) {
-    body.number("buoyancy_N", vehicle.body.buoyancy_N, {0, 1, "N"});
-  }
+  NumberTable whole(key, found);
+  whole.part("water", true, [&](NumberTable& water) {
+    water.number("density_kg_m3", vehicle.water_density_kg_m3, {-1, 1, "kg/m3"});
+  });
+  whole.part("body", true, [&](NumberTable& body) {
+    body.number("mass_kg", vehicle.body.mass_kg, {0, 1, "kg"});
+    body.numbers("gravity_centre_m", vehicle.body.gravity_centre_m, layout::kPlace);
+    body.numbers("buoyancy_centre_m", vehicle.body.buoyancy_centre_m, layout::kPlace);
+    body.numbers("inertia_kg_m2", vehicle.body.inertia_kg_m2, {-1, 1, "kg m2"});
+    if (vehicle.body.volume_m3 > 0) {
+      body.number("volume_m3", vehicle.body.volume_m3, {0, 1, "m3"});
+    } else if (!vehicle.body.is_neutral) {
+      body.number("buoyancy_N", vehicle.body.buoyancy_N, {0, 1, "N"});
+    }
+  });
   whole.part("added_mass", true, [&](auto& part) { layout::go_through(part, vehicle.added_mass); });
   whole.part("damping", true, [&](auto& part) { layout::go_through(part, vehicle.damping); });
   layout::for_each_kind(vehicle, [&](std::string_view kind, auto& list) {
+    if (!key.starts_with(kind)) return;
     for (std::size_t i = 0; i < list.size(); ++i)
       whole.part(fmt::format("{}[{}]", kind, i + 1), true, [&](auto& part) { layout::go_through(part, list[i]); });
   });
