@@ -36,8 +36,9 @@ struct AllanFit {
   NoiseTerm white, flicker, walk;
 };
 
-/// Fits `points` from tau >= `shortest_s` on (filters of a higher order spoil shorter ones). Sets the
-/// confidence intervals of all points by the kind of noise that dominates there.
+/// Fits `points` from tau >= `shortest_s` on (filters of a higher order spoil shorter ones). `lag1`: the
+/// correlation of readings behind a first-order filter, from 0 to below 1. Sets the confidence intervals of all
+/// points by the kind of noise that dominates there.
 [[nodiscard]] AllanFit fit_allan(std::vector<AllanPoint>& points, const Pieces& pieces, double period_s,
                                  double shortest_s, double lag1, const std::vector<SpectralLine>& lines);
 

@@ -50,7 +50,8 @@ void find_terms(ChannelNoise& noise, const Pieces& pieces, double period_s) {
   noise.allan = allan_deviation(pieces, period_s);
   double shortest_s = period_s, lag1 = 0;
   if (noise.reading && noise.reading->correlated) {
-    lag1 = noise.reading->lag1;
+    // A correlation that is no filter's has no model.
+    if (noise.reading->time_constant_s) lag1 = noise.reading->lag1;
     shortest_s = kFilterTimes * std::max(noise.reading->time_constant_s.value_or(0), period_s);
   }
   noise.terms = fit_allan(noise.allan, pieces, period_s, shortest_s, lag1, noise.lines);

@@ -143,6 +143,22 @@ TEST(ChannelNoise, CorrelatedReadingsHaveTheirEffectiveNoise) {
   EXPECT_GE(within, 0.85 * kTrials);
 }
 
+TEST(ChannelNoise, ReadingsThatEachComeTwiceHaveWhiteNoiseToo) {
+  int without_filter = 0;  // their correlation is estimated as one or more
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const auto fresh = noise_test::MadeNoise(seed).white(2000, 0.1);
+    std::vector<double> values;
+    for (const double value : fresh) values.insert(values.end(), 2, value);
+    const auto noise = channel_noise(noise_test::series_of(values, 0.02), {{0, 1e9}});
+    ASSERT_TRUE(noise.reading && noise.reading->correlated);
+    if (noise.reading->time_constant_s) continue;
+    ++without_filter;
+    ASSERT_TRUE(noise.terms.white.value) << seed;
+    EXPECT_NEAR(*noise.terms.white.value, 0.1 * std::sqrt(0.04), 0.1 * 0.1 * std::sqrt(0.04)) << seed;
+  }
+  EXPECT_GT(without_filter, 0);
+}
+
 TEST(ChannelNoise, TwoStretchesAndAGapGiveTheNoiseOfBoth) {
   noise_test::MadeNoise made(9);
   Series series = noise_test::series_of(made.white(4000, 0.1), 0.02);
