@@ -166,8 +166,8 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   return answer;
 }
 
-gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
-  if (const auto layout = layout_of(options)) return diagnosis_of(options, *layout);
+gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const std::optional<config::Layout>& layout) {
+  if (layout) return diagnosis_of(options, *layout);
   if (!options.nominals.empty())
     throw std::invalid_argument(
         "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
@@ -192,11 +192,11 @@ report::CorrectedModel corrected_model(const gap::Diagnosis& diagnosis, const Ga
 
 /// Writes the answers that a saved diagnosis gives as well.
 void write_models(const gap::Diagnosis& diagnosis, const GapCommandOptions& options,
-                  const std::vector<ExportFile>& exports) {
+                  const std::optional<config::Layout>& layout, const std::vector<ExportFile>& exports) {
   const auto& source = options.source;
   if (!source.effects_file.empty()) write_result(source.effects_file, report::gap_effects_file(diagnosis));
   if (exports.empty()) return;
-  if (const auto layout = layout_of(options)) {
+  if (layout) {
     write_exports(exports, options.exports,
                   [&](const auto&) { return report::corrected_layout(diagnosis, options.origin(), *layout); });
   } else {
@@ -216,11 +216,10 @@ void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& opt
 gap::Diagnosis saved_diagnosis(const std::string& file) { return report::gap_from_json(read_file(file), file); }
 
 /// Checks what can be checked before the work. Throws Failure.
-std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
+std::vector<ExportFile> expect_outputs(const GapCommandOptions& options, bool has_layout) {
   const auto& source = options.source;
   std::vector<std::filesystem::path> outputs{options.json, options.report, source.effects_file};
   std::vector<ExportFile> exports = export_files(options.exports, options.origin());
-  const bool has_layout = !exports.empty() && layout_of(options).has_value();
   for (const auto& [simulator, file] : exports) {
     outputs.push_back(file);
     if (simulator.has_value() == has_layout)
@@ -240,10 +239,13 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
 void find_gap(const GapCommandOptions& options) {
   with_exit_statuses([&] {
     (void)quantities_of(options.without);
-    const std::vector<ExportFile> exports = expect_outputs(options);
+    // Only exports want it of a saved diagnosis.
+    const auto layout =
+        options.saved.empty() || !options.exports.wanted.empty() ? layout_of(options) : std::nullopt;
+    const std::vector<ExportFile> exports = expect_outputs(options, layout.has_value());
     const gap::Diagnosis diagnosis =
-        options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
-    write_models(diagnosis, options, exports);
+        options.saved.empty() ? diagnosis_of(options, layout) : saved_diagnosis(options.saved);
+    write_models(diagnosis, options, layout, exports);
     if (options.saved.empty()) write_answers(diagnosis, options);
   });
 }

@@ -21,8 +21,8 @@ set(NAVCAL_SANITIZE_WITHOUT "" CACHE STRING "checks of theirs to leave out")
 set(NAVCAL_COMPUTING_FROM "" CACHE PATH "build folder whose libraries are linked for the rooms that are not in NAVCAL_SANITIZED_ROOMS")
 # Rooms that compute little, and wait for bytes or people: -O2 instead of -O1 is a quarter more of their compilation. With
 # sanitizers, optimising takes half of it, and more rooms are tested sooner without.
-set(NAVCAL_LIGHT_ROOMS config devices control ports link runs emulation report fleet share web daemon cli/live cli ros2
-  CACHE STRING "rooms that compute little")
+set(NAVCAL_MORE_LIGHT_ROOMS "" CACHE STRING "rooms that are compiled like those that compute little")
+set(NAVCAL_LIGHT_ROOMS config devices control ports link runs emulation report fleet share web daemon cli/live cli ros2 ${NAVCAL_MORE_LIGHT_ROOMS})
 set(NAVCAL_LIGHT_OPTIMISATION "$<$<CONFIG:Release>:-O1>" CACHE STRING "optimisation of these rooms and of the programs")
 # Each test is compiled as often as it is run. Not -O0 beside optimised libraries: of a template that a test and a library both
 # instantiate the linker keeps one copy, and the library would run at the test's speed.

@@ -15,7 +15,7 @@
 #include "diagnosis/held_out.h"
 #include "diagnosis/layout_verdict.h"
 #include "diagnosis/nominal_bank.h"
-#include "diagnosis/steady_recording.h"
+#include "diagnosis/steady_source.h"
 #include "gap/verdict/recordings_apart.h"
 
 namespace navcal::diagnosis {
@@ -27,7 +27,7 @@ using identify::RecordedMotion;
 std::string file_name(const RecordedMotion& recording) {
   return std::filesystem::path(recording.name).filename().string();
 }
-/// What is said of one of several recordings begins with its name.
+/// Remarks on one of several recordings begin with the name of its file.
 std::string subject(const RecordedMotion& recording, const LayoutRecordings& recordings) {
   return recordings.others.empty() ? "" : file_name(recording) + ": ";
 }
@@ -60,14 +60,15 @@ std::vector<ExplainedRecording> predicted_by_others(const Judged& of, std::vecto
   return explained;
 }
 
-/// What each of several recordings says by itself.
+/// Writes the estimates of each of several recordings, whether they differ, and, if they do, what is found in each
+/// one alone.
 void write_apart(const Judged& of, std::span<const RecordingModel* const> parts, Diagnosis& answer) {
   const CauseSet& best = of.found.sets.front().causes;
   std::vector<SetEvidence::Posterior> estimates;
   const Eigen::VectorXd& at = of.found.best.at;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     answer.recordings.push_back({file_name(parts[i]->recording()), {}, {}});
-    // Where the scatter is in the likelihood, all of them were linearised at the same departures.
+    // `at` has the departures of one recording only if the source puts the scatter into the likelihood.
     const Eigen::Index first = static_cast<Eigen::Index>(i) * of.library.columns() % at.size();
     const auto here = parts[i]->fit(at.segment(first, of.library.columns()));
     if (!here) throw cannot_follow(parts[i]->recording());
@@ -100,6 +101,29 @@ void write_apart(const Judged& of, std::span<const RecordingModel* const> parts,
   if (answer.kind != gap::UnknownKind::outside) answer.sentence = sentence;
 }
 
+/// Models of the recordings that can be judged; of others a remark says why not. Throws where there is none.
+std::vector<std::unique_ptr<RecordingModel>> those_judged(const LayoutRecordings& recordings,
+                                                          const ModelSource& source, const NominalBank& bank,
+                                                          Diagnosis& answer) {
+  std::vector<std::unique_ptr<RecordingModel>> judged;
+  answer.duration_s = 0;
+  for (const RecordedMotion* recording : recordings.together()) {
+    try {
+      judged.push_back(source.compared(*recording, bank.prior.mean));
+    } catch (const std::invalid_argument& error) {
+      if (recordings.others.empty()) throw;
+      answer.remarks.push_back("left out: " + std::string(error.what()));
+      continue;
+    }
+    answer.duration_s += recording->duration_s;
+    for (const std::string& oddity : judged.back()->oddities())
+      answer.remarks.push_back(subject(*recording, recordings) + oddity);
+  }
+  if (judged.empty())
+    throw std::invalid_argument("none of the recordings can be judged; " + answer.remarks.back());
+  return judged;
+}
+
 void find_causes(const LayoutRequest& request, const LayoutRecordings& recordings, const CauseLibrary& library,
                  ModelSource& source, const LayoutProgress& progress, Diagnosis& answer) {
   answer.remarks.insert(answer.remarks.end(), library.not_judged.begin(), library.not_judged.end());
@@ -111,23 +135,9 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
       : bank.powers.size() == 1 ? "the floor is that of 1 nominal recording, which does not show how recordings "
                                   "differ: give more (--nominal)"
                                 : fmt::format("the floor is that of {} nominal recordings", bank.powers.size()));
-  std::vector<std::unique_ptr<RecordingModel>> compared;
+  std::vector<std::unique_ptr<RecordingModel>> compared = those_judged(recordings, source, bank, answer);
   std::vector<const RecordingModel*> parts;
-  answer.duration_s = 0;
-  for (const RecordedMotion* recording : recordings.together()) {
-    try {
-      compared.push_back(source.compared(*recording, bank.prior.mean));
-    } catch (const std::invalid_argument& error) {
-      if (recordings.others.empty()) throw;
-      answer.remarks.push_back("left out: " + std::string(error.what()));
-      continue;
-    }
-    parts.push_back(compared.back().get());
-    answer.duration_s += recording->duration_s;
-    for (const std::string& oddity : parts.back()->oddities())
-      answer.remarks.push_back(subject(*recording, recordings) + oddity);
-  }
-  if (parts.empty()) throw std::invalid_argument("none of the recordings can be judged; " + answer.remarks.back());
+  for (const auto& one : compared) parts.push_back(one.get());
   const bool are_several = parts.size() > 1;
   if (are_several) {
     compared.push_back(source.joined(parts));

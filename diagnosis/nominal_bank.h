@@ -48,7 +48,7 @@ struct NominalBank {
   ColumnScatter scatter{};
 
   [[nodiscard]] Floor floor() const;  ///< of the noise power of all channels together
-  /// Of `count` other recordings that are judged together.
+  /// Prior of `count` other recordings that are judged together.
   [[nodiscard]] JointPrior prior_of(std::size_t count) const;
   /// Makes `chance_nats` that of so many. Causes that one recording does not tell apart, because its model has
   /// errors, many like it do not either, so `leads.class_nats` grows with their number up to the lead that names.

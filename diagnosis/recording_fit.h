@@ -40,7 +40,7 @@ struct Likelihood {
   Likelihood& operator+=(const Likelihood& other);
 };
 
-/// Of the unknowns of several recordings, those of the first one first, each independent of the others.
+/// Likelihood of the unknowns of several independent recordings, one behind the other in one vector.
 [[nodiscard]] Likelihood side_by_side(std::span<const Likelihood> recordings);
 
 /// Covariance of normal unknowns with these standard deviations, behind readings with this information.
@@ -66,10 +66,10 @@ using Progress = std::function<void(double)>;
 
 /// A recording linearised about some departures from the nominal vehicle and perfect instruments.
 struct RecordingFit {
-  Likelihood
-      linear;  ///< of departures from the nominal vehicle (CauseLibrary::columns(), of each of several recordings)
+  /// Of departures from the nominal vehicle, CauseLibrary::columns() for each recording.
+  Likelihood linear;
   Eigen::VectorXd at;  ///< where it was linearised
-  /// Its likelihood puts the causes for which it was made near `at`.
+  /// False: it was given up while its likelihood still put the causes far from `at`.
   bool is_settled = true;
 };
 

@@ -2,14 +2,11 @@
 #include "diagnosis/steady_recording.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "base/statistics.h"
@@ -32,8 +29,8 @@ constexpr std::size_t kFewestStretches = 5;
 constexpr double kIdleShare = 0.3;
 /// A stretch is apart from the others by so many standard deviations, from the median absolute deviation.
 constexpr double kApart_sigma = 4;
-/// Bounds of the correlation of neighbours, which few of them tell only roughly.
-constexpr double kLeastAlike = -0.5, kMostAlike = 0.8;
+/// Least correlation of neighbours, which few of them tell only roughly.
+constexpr double kLeastAlike = -0.5;
 /// Standard deviations of what is not measured: a tilt, a velocity (a current, where it is over the bottom), a
 /// rate.
 constexpr double kUnknownTilt_rad = 0.1, kUnknownVelocity_m_s = 0.2, kUnknownRate_rad_s = 0.05;
@@ -47,17 +44,6 @@ Vector6 least_errors(const config::Layout& layout) {
   const auto size_m = Eigen::Map<const Eigen::Vector3d>(layout.body.size_m.data());
   least.tail<3>().setConstant(kLeastError * weight_N * size_m.maxCoeff() / 2);
   return least;
-}
-
-/// Number of independent values that tell as much of their mean as these, which follow one another:
-/// n (1 - r) / (1 + r), r the correlation of neighbours. A row for each of several quantities that share it.
-double effective_number(const Eigen::MatrixXd& values, double least_alike) {
-  const Eigen::MatrixXd apart = values.colwise() - values.rowwise().mean();
-  const Eigen::Index pairs = apart.cols() - 1;
-  const double alike = apart.leftCols(pairs).cwiseProduct(apart.rightCols(pairs)).sum() /
-                       std::max(apart.squaredNorm(), std::numeric_limits<double>::min());
-  const double correlation = std::clamp(alike, least_alike, kMostAlike);
-  return static_cast<double>(apart.cols()) * (1 - correlation) / (1 + correlation);
 }
 
 /// Sum of the sizes of all thrusts at rest, N.
@@ -311,91 +297,6 @@ std::optional<RecordingPower> SteadyRecording::power(const Eigen::VectorXd& at) 
   }
   std::ranges::sort(power.apart, {}, &gap::WhereEntry::p_value);
   return power;
-}
-
-CauseLibrary steady_causes_of(const config::Layout& layout,
-                              std::span<const identify::RecordedMotion* const> recordings, CauseLibrary library) {
-  constexpr std::array<std::string_view, 8> kUntold{"added_mass",      "fin_dead_band", "fin_lag",
-                                                    "fin_offset",      "thruster_lag",  "thruster_dead_band",
-                                                    "thruster_offset", "yaw_damping"};
-  std::erase_if(library.causes, [&](const Cause& cause) {
-    return cause.is_instrument || std::find(kUntold.begin(), kUntold.end(), cause.name) != kUntold.end();
-  });
-  const auto here = [&] {
-    for (std::size_t i = 0;; ++i) {
-      try {
-        return SteadyRecording(layout, library, *recordings[i]).fit(Eigen::VectorXd::Zero(library.columns()));
-      } catch (const std::invalid_argument&) {
-        if (i + 1 == recordings.size()) throw;
-      }
-    }
-  }();
-  std::set<std::string> hidden;
-  std::erase_if(library.causes, [&](const Cause& cause) {
-    const bool is_hidden = std::ranges::none_of(cause.parameters, [&](const CauseParameter& parameter) {
-      const double size = kMemberStrengths.back() * parameter.typical * parameter.per_unit;
-      return here->linear.information(parameter.column, parameter.column) * size * size > 1;
-    });
-    if (is_hidden) hidden.insert(cause.words());
-    return is_hidden;
-  });
-  if (!hidden.empty())
-    library.not_judged.push_back(fmt::format("no mean force shows {}", fmt::join(hidden, ", ")));
-  return library;
-}
-
-NominalBalances nominal_balances(const Eigen::MatrixXd& balances, const Eigen::MatrixXd& errors,
-                                 const Eigen::MatrixXd& usual) {
-  NominalBalances nominal{balances.rowwise().mean(), errors + usual, errors.diagonal()};
-  if (balances.cols() < 2) return nominal;
-  const Eigen::MatrixXd apart = balances.colwise() - nominal.mean;
-  const Eigen::VectorXd sizes = nominal.scatter.diagonal().cwiseSqrt();
-  nominal.effective = std::max(effective_number(sizes.cwiseInverse().asDiagonal() * apart, 0), 2.0);
-  const double freedom = nominal.effective - 1;
-  const Eigen::MatrixXd seen = apart * apart.transpose() / static_cast<double>(apart.cols() - 1);
-  const Eigen::MatrixXd axes = seen.diagonal().asDiagonal();
-  const Eigen::MatrixXd shrunk = (freedom * seen + kAxesWeight * axes) / (freedom + kAxesWeight);
-  nominal.scatter = (freedom * shrunk + kToleranceWeight * nominal.scatter) / (freedom + kToleranceWeight);
-  return nominal;
-}
-
-std::unique_ptr<RecordingModel> SteadySource::nominal(const identify::RecordedMotion& recording) {
-  auto made = std::make_unique<SteadyRecording>(layout_, library_, recording);
-  nominals_.push_back(made.get());
-  return made;
-}
-
-void SteadySource::refine(std::size_t round, std::span<const Eigen::VectorXd>) {
-  if (round > 0) return;
-  const auto count = std::ssize(nominals_);
-  Eigen::MatrixXd balances(6, count), errors = Eigen::MatrixXd::Zero(6, 6);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const SteadyRecording& one = *nominals_[static_cast<std::size_t>(i)];
-    balances.col(i) = one.balance();
-    errors += one.own_covariance() / static_cast<double>(count);
-  }
-  const Eigen::MatrixXd usual = nominals_.front()->usual_scatter();
-  balances_ = nominal_balances(balances, errors, usual);
-  if (count < 2) return nominals_.front()->compare_with(balances_);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    // Each by the others, as another recording will be.
-    Eigen::MatrixXd others(6, count - 1);
-    others << balances.leftCols(i), balances.rightCols(count - 1 - i);
-    nominals_[static_cast<std::size_t>(i)]->compare_with(nominal_balances(others, errors, usual));
-  }
-}
-
-std::unique_ptr<RecordingModel> SteadySource::compared(const identify::RecordedMotion& recording,
-                                                       const Eigen::VectorXd&) const {
-  auto made = std::make_unique<SteadyRecording>(layout_, library_, recording);
-  made->compare_with(balances_);
-  return made;
-}
-
-Leads SteadySource::leads() const {
-  const boost::math::fisher_f_distribution<> chance(6, balances_.freedom());
-  const double most = boost::math::quantile(boost::math::complement(chance, kNominalChance));
-  return {kSteadyGap_nats, kSteadyNamed_nats, kSteadyClass_nats, -kSteadyClass_nats, most, true};
 }
 
 }  // namespace navcal::diagnosis

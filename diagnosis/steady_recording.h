@@ -4,12 +4,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "diagnosis/limits.h"
+#include "diagnosis/nominal_balances.h"
 #include "diagnosis/recording_fit.h"
 #include "identify/data/actuator_inputs.h"
 #include "sim/vehicle/body.h"
@@ -21,24 +20,6 @@ struct MotionError {
   Eigen::Vector3d euler_rad = Eigen::Vector3d::Zero();
   sim::Vector6 velocity = sim::Vector6::Zero();
 };
-
-/// Mean balances of the nominal recordings of a vehicle, N and Nm.
-struct NominalBalances {
-  sim::Vector6 mean = sim::Vector6::Zero();               ///< what the layout leaves out of every recording
-  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(6, 6);  ///< covariance of one recording about it
-  sim::Vector6 errors = sim::Vector6::Zero();             ///< variances of the errors within one
-  /// Recordings that would tell as much if none were like its neighbour.
-  double effective = 1;
-
-  /// Of the scatter.
-  [[nodiscard]] double freedom() const { return effective - 1 + kToleranceWeight; }
-};
-/// `balances`: one column for each recording, in the order in which they were made. `errors`: mean covariance of
-/// the errors within one; `usual`: scatter by usual tolerances. The scatter is the mean of what is seen, of the
-/// same without correlations of the axes (counting as kAxesWeight recordings) and of errors and usual tolerances
-/// (as kToleranceWeight).
-[[nodiscard]] NominalBalances nominal_balances(const Eigen::MatrixXd& balances, const Eigen::MatrixXd& errors,
-                                               const Eigen::MatrixXd& usual);
 
 /// A recording by the balance of its mean forces and moments over steady stretches: with a layout that is true,
 ///   r = mean of (tau(nu, down, actuators) - C nu) - M (nu_end - nu_begin) / T = 0.
@@ -112,36 +93,6 @@ class SteadyRecording final : public RecordingModel {
   sim::Vector6 nominal_ = sim::Vector6::Zero();
   Eigen::LLT<Eigen::MatrixXd> covariance_;  ///< of the mean balance between recordings
   double freedom_ = std::numeric_limits<double>::infinity();
-};
-
-/// Effects of a layout that mean forces can tell: those of actuators and of the hull at rest that move the balance
-/// of this recording. Of an actuator the gain is one: the offset, the dead band and the gain of a steady command
-/// are not told apart. `library`: all causes of the layout; the first recording that can be judged counts. Throws
-/// as SteadyRecording does.
-[[nodiscard]] CauseLibrary steady_causes_of(const config::Layout& layout,
-                                            std::span<const identify::RecordedMotion* const> recordings,
-                                            CauseLibrary library);
-
-/// Recordings by their steady stretches. Layout and library must outlive it and its models.
-class SteadySource final : public ModelSource {
- public:
-  SteadySource(const config::Layout& layout, const CauseLibrary& library) : layout_(layout), library_(library) {}
-
-  [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override;
-  void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
-  [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
-                                                         const Eigen::VectorXd& nominal) const override;
-  [[nodiscard]] std::unique_ptr<RecordingModel> joined(
-      std::span<const RecordingModel* const> compared) const override {
-    return std::make_unique<SteadyRecording>(compared, balances_);
-  }
-  [[nodiscard]] Leads leads() const override;
-
- private:
-  const config::Layout& layout_;
-  const CauseLibrary& library_;
-  std::vector<SteadyRecording*> nominals_;  ///< those that nominal() made
-  NominalBalances balances_;
 };
 
 }  // namespace navcal::diagnosis

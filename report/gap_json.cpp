@@ -38,18 +38,20 @@ OrderedJson named(const Named& effect) {
   return json;
 }
 
-OrderedJson json_of(const gap::EffectFinding& effect) {
+OrderedJson sizes_of(const gap::EffectFinding& effect) {
   OrderedJson parameters = OrderedJson::object(), errors = OrderedJson::object();
   for (const auto& parameter : effect.parameters) {
     parameters[parameter.name] = parameter.value;
     errors[parameter.name] = parameter.std_error;
   }
+  return {{"parameters", std::move(parameters)}, {"std_errors", std::move(errors)}};
+}
+
+OrderedJson json_of(const gap::EffectFinding& effect) {
   OrderedJson json = named(effect);
-  json.update(
-      {{"probability", effect.probability},
-       {"parameters", std::move(parameters)},
-       {"std_errors", std::move(errors)},
-       {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}});
+  json["probability"] = effect.probability;
+  json.update(sizes_of(effect));
+  json["confused_with"] = list_of(effect.confused_with, [](const auto& other) { return json_of(other); });
   return json;
 }
 
@@ -138,8 +140,8 @@ OrderedJson json_of(const gap::EarthField& field) {
 OrderedJson json_of(const gap::RecordingFinding& finding) {
   OrderedJson json{{"recording", finding.recording}};
   json["effects"] = list_of(finding.effects, [](const gap::EffectFinding& effect) {
-    OrderedJson one = json_of(effect);
-    for (const char* of_all : {"probability", "confused_with"}) one.erase(of_all);
+    OrderedJson one = named(effect);
+    one.update(sizes_of(effect));
     return one;
   });
   json["alone"] =

@@ -39,13 +39,19 @@ class FleetProgram : public testing::Test {
     for (int i = 0; i < count; ++i) folder_.add_recording(std::to_string(i) + ".cap", i);
   }
   std::unique_ptr<Process> start(std::vector<std::string> arguments) {
-    if (arguments.empty() || arguments[0] != FLEET_TRIAL)
-      arguments.insert(arguments.begin(), {NAVCAL_PROGRAM, "fleet"});
-    return std::make_unique<Process>(arguments, folder_ / ("run" + std::to_string(++runs_)));
+    arguments.insert(arguments.begin(), {NAVCAL_PROGRAM, "fleet"});
+    return started(arguments);
+  }
+  std::unique_ptr<Process> started(const std::vector<std::string>& command) {
+    return std::make_unique<Process>(command, folder_ / ("run" + std::to_string(++runs_)));
   }
   /// Runs it to its end; its exit status.
-  int run(std::vector<std::string> arguments) {
-    const auto process = start(std::move(arguments));
+  int run(std::vector<std::string> arguments) { return ended(start(std::move(arguments))); }
+  int run_trial(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), FLEET_TRIAL);
+    return ended(started(arguments));
+  }
+  int ended(const std::unique_ptr<Process>& process) {
     const int status = process->wait(kFleetPatience).value_or(-1);
     out_ = process->out();
     err_ = process->err();
@@ -227,18 +233,17 @@ TEST_F(FleetProgram, RecordsAndScoresATrial) {
   EXPECT_EQ(run({"trial", "record"}), 1);
   EXPECT_NE(err_.find("bench_fleet_trial"), std::string::npos) << err_;
   const std::string truth = (folder_ / "truth.json").string(), missions = (folder_ / "missions").string();
-  ASSERT_EQ(run({FLEET_TRIAL, "record", "-o", missions, "--truth", truth, "--vehicles", "2", "--days", "1",
-                 "--minutes", "3", "--seed", "5"}),
+  ASSERT_EQ(run_trial({"record", "-o", missions, "--truth", truth, "--vehicles", "2", "--days", "1", "--minutes",
+                       "3", "--seed", "5"}),
             0)
       << err_;
   EXPECT_TRUE(fs::exists(missions + "/v02/day-01.cap"));
-  EXPECT_EQ(run({FLEET_TRIAL, "record", "-o", missions, "--truth", truth, "--vehicles", "1"}), 1) << "not empty";
+  EXPECT_EQ(run_trial({"record", "-o", missions, "--truth", truth, "--vehicles", "1"}), 1) << "not empty";
   folder_.add_file("answer.json",
                    R"({"causes":[],"undecided":[],"vehicles":[{"vehicle":"v01","verdict":"no-gap"}]})");
-  ASSERT_EQ(run({FLEET_TRIAL, "score", (folder_.recordings() / "answer.json").string(), "--truth", truth}), 0)
-      << err_;
+  ASSERT_EQ(run_trial({"score", (folder_.recordings() / "answer.json").string(), "--truth", truth}), 0) << err_;
   EXPECT_NE(out_.find("missed"), std::string::npos);
-  EXPECT_EQ(run({FLEET_TRIAL, "score", truth, "--truth", truth}), 1);
+  EXPECT_EQ(run_trial({"score", truth, "--truth", truth}), 1);
 }
 
 }  // namespace
