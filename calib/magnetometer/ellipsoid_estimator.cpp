@@ -94,8 +94,8 @@ void EllipsoidEstimator::settle() {
     fit_ = improve(*fit_, all, noise_, {parameters_.known, parameters_.soft_iron_std});
 }
 
-EllipsoidShape::Matrix EllipsoidEstimator::covariance() const {
-  return fit_ ? stated_covariance(*fit_, cells(), noise_, 0) : EllipsoidShape::Matrix::Zero();
+EllipsoidError EllipsoidEstimator::error() const {
+  return fit_ ? stated_error(*fit_, cells(), noise_, 0) : EllipsoidError{};
 }
 
 std::optional<MagnetometerEstimate> EllipsoidEstimator::estimate() const {
@@ -104,7 +104,8 @@ std::optional<MagnetometerEstimate> EllipsoidEstimator::estimate() const {
   MagnetometerEstimate estimate;
   estimate.correction.offset_uT = fit_->shape.centre_uT;
   estimate.correction.matrix = size_uT * fit_->shape.matrix_per_uT;
-  const EllipsoidShape::Matrix stated = covariance();
+  const EllipsoidError error = this->error();
+  const EllipsoidShape::Matrix stated = error.covariance();
   estimate.offset_std_uT = stated.diagonal().head<3>().cwiseSqrt();
   estimate.matrix_std = matrix_std(fit_->shape, stated, size_uT, parameters_.known.has_value());
   if (parameters_.known) {
@@ -113,7 +114,7 @@ std::optional<MagnetometerEstimate> EllipsoidEstimator::estimate() const {
   }
   estimate.residual_uT = noise_.field_uT;
   estimate.field_uT = size_uT;
-  estimate.heading_std_rad = worst_heading_std_rad(fit_->shape, stated, parameters_.expected_tilt_rad);
+  estimate.heading_std_rad = worst_heading_std_rad(fit_->shape, error, parameters_.expected_tilt_rad);
   estimate.samples = samples_;
   return estimate;
 }

@@ -53,8 +53,8 @@ class EllipsoidEstimator {
   /// The summary: those with tilt, then those without.
   [[nodiscard]] EllipsoidCells cells() const;
   [[nodiscard]] const EllipsoidNoise& noise() const { return noise_; }
-  /// Covariance of centre, matrix and dip, enlarged by the residuals that noise alone does not explain.
-  [[nodiscard]] EllipsoidShape::Matrix covariance() const;
+  /// Error of centre, matrix and dip, enlarged by the residuals that noise alone does not explain.
+  [[nodiscard]] EllipsoidError error() const;
   [[nodiscard]] Judgement judgement() const;
   /// Largest angle between the hull's vertical axis and the plumb line among the cells.
   [[nodiscard]] double tilt_seen_rad() const;

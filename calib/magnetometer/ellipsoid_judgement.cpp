@@ -92,8 +92,9 @@ Judgement EllipsoidEstimator::judgement() const {
   const double field = parameters_.known ? parameters_.known->magnitude_uT : fit_->shape.radius_uT();
   // Errors of the instrument's scales grow with the field that it measures.
   const double relative = parameters_.model_error * (1 + centre / field);
-  const auto covariance = stated_covariance(*fit_, all, noise_, relative);
-  const double vertical_uT = std::sqrt(covariance(2, 2));
+  // An offset of the inclinometer is in the heading with this calibration or without it.
+  const EllipsoidError error{.noise = stated_error(*fit_, all, noise_, relative).noise};
+  const double vertical_uT = std::sqrt(error.noise(2, 2));
   if (centre - 2 * vertical_uT > field && tilt_rad < 45 * base::kRadiansPerDegree) {
     return judgement.refused("the hard iron of " + rounded(centre, 0) +
                                  " uT exceeds the Earth's field, and tilt within " + whole_degrees(tilt_rad) +
@@ -109,7 +110,7 @@ Judgement EllipsoidEstimator::judgement() const {
             whole_degrees(tilt_rad) + " degrees",
         tilt_manoeuvre(tilt_rad));
   }
-  const double worst_rad = worst_heading_std_rad(fit_->shape, covariance, parameters_.expected_tilt_rad);
+  const double worst_rad = worst_heading_std_rad(fit_->shape, error, parameters_.expected_tilt_rad);
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(fit_->shape))) {
     return judgement.refused(

@@ -89,8 +89,7 @@ double worst_raw_heading_error_rad(const EllipsoidShape& shape) {
   return worst;
 }
 
-double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance,
-                             double tilt_rad) {
+double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidError& error, double tilt_rad) {
   constexpr int kHeadings = 24;
   const double across = std::sqrt(1 - shape.sine_of_dip * shape.sine_of_dip);
   const Eigen::Matrix3d inverse = shape.matrix_per_uT.inverse();
@@ -108,7 +107,10 @@ double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidShape::
       EllipsoidShape::Vector row = EllipsoidShape::Vector::Zero();
       row.head<3>() = -shape.matrix_per_uT * direction;
       row.segment<6>(3) = EllipsoidShape::slope_of_matrix(off_centre).transpose() * direction;
-      worst = std::max(worst, row.dot(covariance * row));
+      // The field, levelled by a tilt that is off, is as one that is turned back by that offset.
+      const Eigen::Vector2d by_tilt =
+          error.by_tilt_offset.transpose() * row + direction.cross(body_from_level * field).head<2>();
+      worst = std::max(worst, row.dot(error.noise * row) + by_tilt.dot(error.tilt_offset_rad2 * by_tilt));
     }
   }
   return std::sqrt(worst);

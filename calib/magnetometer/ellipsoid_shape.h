@@ -31,6 +31,18 @@ struct EllipsoidShape {
   void archive(Archive& archive) { archive(centre_uT, matrix_per_uT, sine_of_dip); }
 };
 
+/// Error of a shape, by noise and by an offset of the inclinometer from the compass's axes.
+struct EllipsoidError {
+  using ByTilt = Eigen::Matrix<double, EllipsoidShape::kParameters, 2>;
+  EllipsoidShape::Matrix noise = EllipsoidShape::Matrix::Zero();
+  ByTilt by_tilt_offset = ByTilt::Zero();  ///< derivative by the offset of roll, of pitch, 1/rad
+  Eigen::Matrix2d tilt_offset_rad2 = Eigen::Matrix2d::Zero();
+
+  [[nodiscard]] EllipsoidShape::Matrix covariance() const {
+    return noise + by_tilt_offset * tilt_offset_rad2 * by_tilt_offset.transpose();
+  }
+};
+
 /// Standard errors of `size_uT` times M. A size that is not known beforehand is that of the fit, so that only the
 /// proportions of M are uncertain.
 [[nodiscard]] Eigen::Matrix3d matrix_std(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance,
@@ -47,8 +59,8 @@ struct EllipsoidShape {
 [[nodiscard]] double worst_raw_heading_error_rad(const EllipsoidShape& shape);
 
 /// Standard deviation of the calibrated heading at the worst heading of the circle with roll and pitch up to
-/// `tilt_rad`.
-[[nodiscard]] double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance,
+/// `tilt_rad`, as the inclinometer reads them: its offset is in the shape as well, which level turns make up for.
+[[nodiscard]] double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidError& error,
                                            double tilt_rad);
 
 }  // namespace navcal::calib
