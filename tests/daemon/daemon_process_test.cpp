@@ -206,7 +206,7 @@ TEST(DaemonProcess, HealthAndLogSayWhichVehicleThisIs) {
   }
   EXPECT_EQ(log.metadata().at("vehicle_id"), "auv-7");
   EXPECT_EQ(log.metadata().at("vehicle_name"), "Tümmler");
-  EXPECT_EQ(log.metadata().at("config_crc32c"), health["vehicle"]["config_crc32c"]);
+  EXPECT_EQ(health["vehicle"]["config_crc32c"], log.metadata().at("config_crc32c"));
   const auto raw = std::find_if(log.channels().begin(), log.channels().end(),
                                 [](const auto& channel) { return channel.second.raw; });
   ASSERT_NE(raw, log.channels().end());
