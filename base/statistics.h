@@ -18,12 +18,16 @@ namespace navcal::base {
   return *middle;
 }
 
-/// log of the mean of exp(values), of which there is one at least.
-[[nodiscard]] inline double log_mean_exp(std::span<const double> values) {
+/// log of the sum of exp(values), of which there is one at least. They may be far below zero.
+[[nodiscard]] inline double log_sum_exp(std::span<const double> values) {
   const double most = *std::max_element(values.begin(), values.end());
   double sum = 0;
   for (const double value : values) sum += std::exp(value - most);
-  return most + std::log(sum / static_cast<double>(values.size()));
+  return most + std::log(sum);
+}
+
+[[nodiscard]] inline double log_mean_exp(std::span<const double> values) {
+  return log_sum_exp(values) - std::log(static_cast<double>(values.size()));
 }
 
 }  // namespace navcal::base

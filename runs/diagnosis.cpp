@@ -7,6 +7,7 @@
 
 #include "base/enum_name.h"
 #include "base/square.h"
+#include "base/statistics.h"
 
 namespace navcal::runs {
 namespace {
@@ -35,7 +36,7 @@ std::vector<Weighed> weighed(RunEvidence& evidence, std::span<const Hypothesis> 
   for (const Hypothesis& hypothesis : all) {
     logs.push_back(std::log(hypothesis.prior) + evidence.log_evidence(hypothesis));
   }
-  const double whole = log_sum(logs);
+  const double whole = base::log_sum_exp(logs);
   std::vector<Weighed> found;
   for (std::size_t i = 0; i < all.size(); ++i) found.push_back({&all[i], std::exp(logs[i] - whole)});
   std::ranges::stable_sort(found, std::greater{}, &Weighed::probability);
@@ -82,13 +83,6 @@ void judge(const std::vector<Weighed>& found, RunDiagnosis& diagnosis) {
 
 double log_student(double squared, double log_determinant, double dimension, double degrees) {
   return -0.5 * log_determinant - 0.5 * (degrees + dimension) * std::log1p(squared / degrees);
-}
-
-double log_sum(std::span<const double> logs) {
-  const double largest = *std::ranges::max_element(logs);
-  double sum = 0;
-  for (const double value : logs) sum += std::exp(value - largest);
-  return largest + std::log(sum);
 }
 
 RunEvidence::RunEvidence(const NominalVehicle& vehicle, std::span<const Response> responses)
@@ -184,7 +178,7 @@ double RunEvidence::with_line(double height_dB) const {
                                  kSpectrumDegrees));
     }
   }
-  return log_sum(logs) - std::log(static_cast<double>(logs.size()));
+  return base::log_mean_exp(logs);
 }
 
 double RunEvidence::of_spectrum(const Prediction& prediction) {
@@ -199,7 +193,7 @@ double RunEvidence::of_spectrum(const Prediction& prediction) {
   if (prediction.line_shows >= 1) return known->second;
   const double both[] = {std::log(prediction.line_shows) + known->second,
                          std::log1p(-prediction.line_shows) + without};
-  return log_sum(both);
+  return base::log_sum_exp(both);
 }
 
 double RunEvidence::log_evidence(const Hypothesis& hypothesis) {
@@ -207,7 +201,7 @@ double RunEvidence::log_evidence(const Hypothesis& hypothesis) {
   for (const Prediction& prediction : hypothesis.predictions) {
     logs.push_back(of_parameters(prediction) + of_spectrum(prediction));
   }
-  return log_sum(logs) - std::log(static_cast<double>(logs.size()));
+  return base::log_mean_exp(logs);
 }
 
 std::string_view verdict_name(Verdict verdict) {

@@ -52,9 +52,6 @@ class RunEvidence {
   std::map<double, double> with_line_;
 };
 
-/// log(exp(a) + exp(b) + ...) of values that may be far below zero.
-[[nodiscard]] double log_sum(std::span<const double> logs);
-
 enum class Verdict {
   nominal,    ///< the vehicle is as the nominal runs show it
   explained,  ///< an effect of the library, or one of a family of which the size is not told

@@ -31,8 +31,8 @@ TEST_F(GapTrialLayouts, AVehicleIsIdentifiedAndItsCaseIsAnswered) {
   for (const auto& one : json.at("cases")) {
     EXPECT_FALSE(one.contains("failure")) << one;
     EXPECT_NE(one.at("outcome"), "wrong name") << one.at("truth") << one.at("answer");
-    EXPECT_EQ(record::sha256_of(one.at("truth").get<std::string>() + one.at("salt").get<std::string>()),
-              one.at("sha256"));
+    EXPECT_EQ(one.at("sha256"),
+              record::sha256_of(one.at("truth").get<std::string>() + one.at("salt").get<std::string>()));
     EXPECT_LT(said("out").find(one.at("sha256").get<std::string>()), said("out").find("answered in"));
   }
   EXPECT_EQ(json.at("cases").at(0).at("arm"), "nulls");

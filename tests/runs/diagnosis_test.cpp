@@ -124,10 +124,5 @@ TEST(EffectNames, AreFoundInAnyCaseOfLetters) {
   EXPECT_EQ(effect_named(""), nullptr);
 }
 
-TEST(LogSum, HoldsFarBelowZero) {
-  EXPECT_NEAR(log_sum(std::vector<double>{-2000, -2000}), -2000 + std::log(2.0), 1e-12);
-  EXPECT_NEAR(log_sum(std::vector<double>{-5000, 1}), 1, 1e-12);
-}
-
 }  // namespace
 }  // namespace navcal::runs
