@@ -114,8 +114,8 @@ TEST(GpsdClients, CgpsShowsTheFix) {
   const std::string screen =
       output_of("TERM=xterm timeout 5 script -qc 'stty rows 40 cols 100; cgps -s 127.0.0.1:" +
                 std::to_string(daemon.port()) + "' /dev/null </dev/null");
-  // It rewrites only what changes on its screen, so words are looked for, not lines.
-  for (const char* part : {"57.71283000 N", "12.02259000 E", "49.400 m", "43.0  174.0  44.0  Y"}) {
+  // It rewrites only what changes on its screen, and releases differ in their columns, so words are looked for.
+  for (const char* part : {"57.71283000 N", "12.02259000 E", "49.400", "43.0", "174.0", "44.0  Y"}) {
     EXPECT_NE(screen.find(part), std::string::npos) << part;
   }
 }
