@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "protocols/checked_line.h"
+#include "protocols/crc16.h"
 #include "protocols/decimal.h"
-#include "protocols/described/checksum.h"
 #include "protocols/samples_line.h"
 #include "protocols/text_fields.h"
 
@@ -169,10 +169,6 @@ std::optional<Content> if_good(const Fields& fields, const Content& content) {
 }
 
 }  // namespace
-
-std::uint8_t crc8(Bytes bytes) {
-  return static_cast<std::uint8_t>(described::sum_of(described::Sum::crc8, bytes));
-}
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   if (*first == '{') return scan_object(first, last);

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "protocols/crc16.h"
 #include "tests/protocols/doppler_text_samples.h"
 #include "tests/protocols/shared_capture.h"
 #include "tests/protocols/text.h"
@@ -74,7 +75,7 @@ TEST(WaterLinked, LinesOfTheDocumentation) {
         "wrx,1075.51,0.000,0.000,0.000,2.707,-1.00,n,1*04\n"}) {
     EXPECT_EQ(all_at_once<water_linked::Scanner>(bytes_of(text)).frames.size(), 1U) << text;
   }
-  EXPECT_EQ(water_linked::crc8(bytes_of("123456789")), 0xF4);
+  EXPECT_EQ(crc8(bytes_of("123456789")), 0xF4);
   const auto velocity = water_linked::decode_velocity(
       bytes_of("wrz,0.120,-0.400,2.000,y,1.30,1.855,1e-07;0;1.4;0;1.2;0;0.2;0;1e+09,7,14,123.00,1*50\n"));
   ASSERT_TRUE(velocity);
