@@ -24,6 +24,11 @@ std::optional<MessageCode> code_of(const Frame& frame) {
   return get_be<MessageCode>(frame.bytes.data() + 2);
 }
 
+std::optional<Bytes> payload_if(Bytes frame, MessageCode code, std::size_t least) {
+  if (frame.size() < kOverhead + least || get_be<MessageCode>(frame.data() + 2) != code) return std::nullopt;
+  return payload_of(frame);
+}
+
 Kind kind_of(const Frame& frame) {
   if (frame.bytes[0] == 0xB5) return Kind::ubx;
   return frame.bytes[0] == 0xD3 ? Kind::rtcm3 : Kind::nmea;
