@@ -119,8 +119,6 @@ std::unique_ptr<Instrument> make_oncore(const config::PortSettings& settings) {
 
 namespace {
 
-namespace oncore = protocols::oncore;
-
 /// The receiver reads its input once a second and answers within the second after the next; half a second is
 /// for the wire.
 constexpr std::int64_t kAnswer_ns = 3 * base::kSecond_ns + base::kSecond_ns / 2;

@@ -92,8 +92,6 @@ Verdict read_pni(const protocols::Frame& frame, const config::PortSettings&, Rec
 
 namespace {
 
-namespace trax = protocols::trax;
-
 constexpr std::int64_t kPniAnswer_ns = 500 * base::kMillisecond_ns;
 /// After a command without an answer: the time in which the device carries it out.
 constexpr std::int64_t kPniObeys_ns = 50 * base::kMillisecond_ns;

@@ -11,11 +11,12 @@
 
 namespace navcal::instruments {
 
+namespace keller = protocols::keller;
+
 /// Keller pressure transmitter (ICD section 15): answers to F73 as pressure. The transmitter must be one that
 /// measures absolute pressure (PAA). Answers do not name their channel: only the pressure channel is ever asked
 /// for.
 Verdict read_keller(const protocols::Frame& frame, const config::PortSettings&, Receiver& receiver) {
-  namespace keller = protocols::keller;
   constexpr double kBar_Pa = 1e5;
   const auto reading = keller::decode_reading(frame.bytes);
   if (!reading) return Verdict::ignored;
@@ -28,8 +29,6 @@ Verdict read_keller(const protocols::Frame& frame, const config::PortSettings&, 
 }
 
 namespace {
-
-namespace keller = protocols::keller;
 
 /// A transmitter answers within some milliseconds. Slow ones need 100 ms for the first answer after power-on.
 constexpr std::int64_t kIdentityAnswer_ns = base::kSecond_ns / 2;
@@ -130,8 +129,6 @@ std::unique_ptr<Instrument> make_paroscientific(const config::PortSettings& sett
 }
 
 namespace {
-
-namespace paroscientific = protocols::paroscientific;
 
 /// A gauge that samples answers when the sample is over. As delivered that takes 0.7 s; it can be set to many
 /// seconds.

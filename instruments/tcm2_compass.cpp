@@ -52,7 +52,6 @@ Verdict read_tcm2(const protocols::Frame& frame, const config::PortSettings& set
 
 namespace {
 
-namespace tcm2 = protocols::tcm2;
 using tcm2::Parameter;
 using tcm2::Verb;
 

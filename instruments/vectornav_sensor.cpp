@@ -109,8 +109,6 @@ Verdict read_vectornav(const protocols::Frame& frame, const config::PortSettings
 
 namespace {
 
-namespace vn = protocols::vectornav;
-
 constexpr std::int64_t kVnAnswer_ns = 300 * base::kMillisecond_ns;
 constexpr std::int64_t kVnStopped_ns = base::kSecond_ns;
 constexpr std::int64_t kVnRest_ns = 10 * base::kSecond_ns;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/crc.hpp>
 #include <string_view>
 
+#include "protocols/crc16.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::link {
@@ -25,13 +25,6 @@ bool is_kind(std::uint8_t kind) {
   return (kind & 0x70) == kVersion << 4 && type >= 1 && type <= kFrameTypes;
 }
 
-/// CRC-32 of Ethernet over all but the sync bytes.
-std::uint32_t crc32(Bytes bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return static_cast<std::uint32_t>(crc.checksum());
-}
-
 }  // namespace
 
 protocols::Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
@@ -45,7 +38,7 @@ protocols::Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* las
   const std::size_t body = kHeaderLength + first[kLength] + tag;
   const std::size_t length = body + kCrcLength;
   if (available < length) return Scan::incomplete(length - available);
-  if (crc32({first + kKind, body - kKind}) != protocols::get_be<std::uint32_t>(first + body))
+  if (protocols::crc32({first + kKind, body - kKind}) != protocols::get_be<std::uint32_t>(first + body))
     return Scan::bad_checksum();
   return Scan::frame(length, protocols::FrameId(kFrameNames.at(first[kKind] & 0x0FU)));
 }
@@ -87,7 +80,7 @@ Buffer FrameWriter::finish(Bytes tag) && {
   if ((bytes_[kKind] & kTagged) != 0) {
     for (std::size_t i = 0; i < kTagLength; ++i) bytes_.push_back(i < tag.size() ? tag[i] : 0);
   }
-  const std::uint32_t crc = crc32(covered());
+  const std::uint32_t crc = protocols::crc32(covered());
   for (int shift = 24; shift >= 0; shift -= 8) bytes_.push_back(static_cast<std::uint8_t>(crc >> shift));
   return std::move(bytes_);
 }

@@ -53,6 +53,29 @@ std::uint16_t crc16(unsigned crc, Bytes bytes) {
   return static_cast<std::uint16_t>(crc);
 }
 
+/// Remainders of up to 32 bits; one that is not reflected lies in the uppermost bits.
+template <std::uint32_t Polynomial, bool IsReflected>
+constexpr auto kByteTable = [] {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t remainder = IsReflected ? byte : byte << 24;
+    for (int bit = 0; bit < 8; ++bit) {
+      const bool carries = (remainder & (IsReflected ? 1U : 0x80000000U)) != 0;
+      remainder = (IsReflected ? remainder >> 1 : remainder << 1) ^ (carries ? Polynomial : 0);
+    }
+    table[byte] = remainder;
+  }
+  return table;
+}();
+
+template <std::uint32_t Polynomial, bool IsReflected>
+std::uint32_t crc_by_bytes(std::uint32_t crc, Bytes bytes) {
+  for (const std::uint8_t byte : bytes)
+    crc = (IsReflected ? crc >> 8 : crc << 8) ^
+          kByteTable<Polynomial, IsReflected>[static_cast<std::uint8_t>((IsReflected ? crc : crc >> 24) ^ byte)];
+  return crc;
+}
+
 }  // namespace
 
 std::uint16_t crc16_ccitt_false(Bytes bytes) { return crc16<0x1021, false>(0xFFFF, bytes); }
@@ -62,5 +85,13 @@ std::uint16_t crc16_xmodem(Bytes bytes) { return crc16<0x1021, false>(0, bytes);
 std::uint16_t crc16_modbus(Bytes bytes) { return crc16<0xA001, true>(0xFFFF, bytes); }
 
 std::uint16_t crc16_mcrf4xx(Bytes bytes) { return crc16<0x8408, true>(0xFFFF, bytes); }
+
+std::uint8_t crc8(Bytes bytes) {
+  return static_cast<std::uint8_t>(crc_by_bytes<0x07000000, false>(0, bytes) >> 24);
+}
+
+std::uint32_t crc24q(Bytes bytes) { return crc_by_bytes<0x864CFB00, false>(0, bytes) >> 8; }
+
+std::uint32_t crc32(Bytes bytes) { return ~crc_by_bytes<0xEDB88320, true>(0xFFFFFFFF, bytes); }
 
 }  // namespace navcal::protocols

@@ -56,6 +56,13 @@ inline void append_decimal(std::string& text, double value, int decimals) {
   text += printed;
 }
 
+/// Appends `value` with the fewest digits that identify it.
+inline void append_shortest(std::string& text, double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, static_cast<std::size_t>(end - digits));
+}
+
 /// Appends `value` in upper-case hexadecimal, filled up with zeros to `least_digits`.
 inline void append_hex(std::string& text, std::uint32_t value, std::size_t least_digits) {
   char digits[8];

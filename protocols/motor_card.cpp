@@ -6,49 +6,30 @@
 #include <string_view>
 
 #include "protocols/checked_line.h"
-#include "protocols/decimal.h"
+#include "protocols/text_fields.h"
 
 namespace navcal::protocols::motor_card {
 namespace {
 
-/// The fields behind the three letters; nullopt when there are not exactly N.
-template <std::size_t N>
-std::optional<std::array<std::string_view, N>> fields_of(Bytes frame, FrameId id) {
-  std::string_view rest = body_of(frame);
-  if (!rest.starts_with(id.view())) return std::nullopt;
-  rest.remove_prefix(id.view().size());
-  std::array<std::string_view, N> fields;
-  for (auto& field : fields) {
-    if (!rest.starts_with(',')) return std::nullopt;
-    rest.remove_prefix(1);
-    field = rest.substr(0, rest.find(','));
-    rest.remove_prefix(field.size());
-  }
-  if (!rest.empty()) return std::nullopt;
-  return fields;
-}
+constexpr auto kLayOutStatus = [](auto& line, auto& status) {
+  line.number(status.sequence);
+  line.number(status.rpm_commanded);
+  line.number(status.rpm);
+  line.number(status.fins_deg, Print{1});
+  line.number(status.current_A, Print{2});
+};
 
-/// An empty field leaves `value` absent; false when the field is not a number.
-bool read(std::string_view field, std::optional<double>& value) {
-  if (!field.empty()) value = decimal(field);
-  return field.empty() || value.has_value();
-}
+constexpr auto kLayOutCommand = [](auto& line, auto& command) {
+  line.number(command.rpm);
+  line.number(command.fins_deg, Print{1});
+};
 
-template <std::integral T>
-bool read(std::string_view field, std::optional<T>& value) {
-  if (!field.empty()) value = integer<T>(field);
-  return field.empty() || value.has_value();
-}
-
-void append_field(std::string& body, const std::optional<double>& value, int decimals) {
-  body += ',';
-  if (value) append_decimal(body, *value, decimals);
-}
-
-template <std::integral T>
-void append_field(std::string& body, const std::optional<T>& value) {
-  body += ',';
-  if (value) body += std::to_string(*value);
+template <class Message, class LayOut>
+std::optional<Message> decoded(Bytes frame, FrameId id, LayOut lay_out) {
+  const std::string_view body = body_of(frame);
+  const std::size_t name = id.view().size();
+  if (!body.starts_with(id.view()) || body.substr(name, 1) != ",") return std::nullopt;
+  return content_of<Message>(LineReader(body.substr(name + 1), decimal), lay_out);
 }
 
 }  // namespace
@@ -65,49 +46,14 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   return scan_checked_line(first, last, kMaxFrameLength, first[3] == 'S' ? kMcs : kMcc);
 }
 
-std::optional<Status> decode_status(Bytes frame) {
-  const auto fields = fields_of<7>(frame, kMcs);
-  if (!fields) return std::nullopt;
-  const auto& f = *fields;
-  Status status;
-  if (!read(f[0], status.sequence) || !read(f[1], status.rpm_commanded) || !read(f[2], status.rpm) ||
-      !read(f[3], status.fins_deg[0]) || !read(f[4], status.fins_deg[1]) || !read(f[5], status.fins_deg[2]) ||
-      !read(f[6], status.current_A)) {
-    return std::nullopt;
-  }
-  return status;
-}
-
-std::optional<Command> decode_command(Bytes frame) {
-  const auto fields = fields_of<4>(frame, kMcc);
-  if (!fields) return std::nullopt;
-  const auto rpm = integer<std::int32_t>((*fields)[0]);
-  if (!rpm) return std::nullopt;
-  Command command{*rpm, {}};
-  for (std::size_t i = 0; i < command.fins_deg.size(); ++i) {
-    const auto fin = decimal((*fields)[i + 1]);
-    if (!fin) return std::nullopt;
-    command.fins_deg[i] = *fin;
-  }
-  return command;
-}
+std::optional<Status> decode_status(Bytes frame) { return decoded<Status>(frame, kMcs, kLayOutStatus); }
+std::optional<Command> decode_command(Bytes frame) { return decoded<Command>(frame, kMcc, kLayOutCommand); }
 
 std::vector<std::uint8_t> encode_status(const Status& status) {
-  std::string body(kMcs.view());
-  append_field(body, status.sequence);
-  append_field(body, status.rpm_commanded);
-  append_field(body, status.rpm);
-  for (const auto& fin : status.fins_deg) append_field(body, fin, 1);
-  append_field(body, status.current_A, 2);
-  return checked_line(body);
+  return checked_line(line_of(kMcs.view(), status, kLayOutStatus));
 }
-
 std::vector<std::uint8_t> encode_command(const Command& command) {
-  std::string body(kMcc.view());
-  body += ',';
-  body += std::to_string(command.rpm);
-  for (const double fin : command.fins_deg) append_field(body, fin, 1);
-  return checked_line(body);
+  return checked_line(line_of(kMcc.view(), command, kLayOutCommand));
 }
 
 }  // namespace navcal::protocols::motor_card

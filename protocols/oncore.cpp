@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "protocols/checked_line.h"
+#include "protocols/oncore_encode.h"
 
 namespace navcal::protocols::oncore {
 namespace {
@@ -87,6 +88,17 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   if (first[length - 1] != '\n') return Scan::bad_checksum();
   const char letters[2] = {static_cast<char>(first[2]), static_cast<char>(first[3])};
   return Scan::frame(length, FrameId(std::string_view(letters, 2)));
+}
+
+std::vector<std::uint8_t> encode_frame(FrameId id, Bytes data) {
+  std::vector<std::uint8_t> frame{'@', '@'};
+  frame.reserve(data.size() + 7);
+  for (const char letter : id.view()) frame.push_back(static_cast<std::uint8_t>(letter));
+  frame.insert(frame.end(), data.begin(), data.end());
+  frame.push_back(xor_of(Bytes(frame).subspan(2)));
+  frame.push_back('\r');
+  frame.push_back('\n');
+  return frame;
 }
 
 }  // namespace navcal::protocols::oncore

@@ -16,8 +16,11 @@ namespace {
 constexpr double kMostLatitude_deg = 90, kMostLongitude_deg = 180, kLeastHeight_m = -1000, kMostHeight_m = 18'000;
 constexpr std::uint8_t kGpsHeight = 0;  // the height is above the ellipsoid
 
-void append_i32(std::vector<std::uint8_t>& data, double value, double least, double most, double per_unit) {
-  append_be(data, static_cast<std::int32_t>(std::lround(std::clamp(value, least, most) * per_unit)));
+template <class Layout, class Position>
+void lay_out_position(const Layout& p, Position& position) {
+  p.template parts<std::int32_t>(0, position.latitude_deg, kMilliarcsecondsPerDegree);
+  p.template parts<std::int32_t>(4, position.longitude_deg, kMilliarcsecondsPerDegree);
+  p.template parts<std::int32_t>(8, position.height_m, 100);
 }
 
 bool is_command(Bytes frame, FrameId id, std::size_t length) {
@@ -29,11 +32,11 @@ bool is_command(Bytes frame, FrameId id, std::size_t length) {
 }  // namespace
 
 std::vector<std::uint8_t> encode_aid_position(const AidPosition& position) {
-  std::vector<std::uint8_t> data;
-  append_i32(data, position.latitude_deg, -kMostLatitude_deg, kMostLatitude_deg, kMilliarcsecondsPerDegree);
-  append_i32(data, position.longitude_deg, -kMostLongitude_deg, kMostLongitude_deg, kMilliarcsecondsPerDegree);
-  append_i32(data, position.height_m, kLeastHeight_m, kMostHeight_m, 100);
-  data.push_back(kGpsHeight);
+  const AidPosition sent{std::clamp(position.latitude_deg, -kMostLatitude_deg, kMostLatitude_deg),
+                         std::clamp(position.longitude_deg, -kMostLongitude_deg, kMostLongitude_deg),
+                         std::clamp(position.height_m, kLeastHeight_m, kMostHeight_m)};
+  std::vector<std::uint8_t> data(13, kGpsHeight);
+  lay_out_position(LayoutWriter(data, true), sent);
   return encode_frame(kGa, data);
 }
 
@@ -55,9 +58,8 @@ std::vector<std::uint8_t> encode_aid_time(std::int64_t utc_ns) {
 
 std::optional<AidPosition> parse_aid_position(Bytes frame) {
   if (!is_command(frame, kGa, kGaLength)) return std::nullopt;
-  const AidPosition position{get_be<std::int32_t>(&frame[4]) / kMilliarcsecondsPerDegree,
-                             get_be<std::int32_t>(&frame[8]) / kMilliarcsecondsPerDegree,
-                             get_be<std::int32_t>(&frame[12]) / 100.0};
+  AidPosition position;
+  lay_out_position(LayoutReader(frame.subspan(4), true), position);
   const bool in_range = std::abs(position.latitude_deg) <= kMostLatitude_deg &&
                         std::abs(position.longitude_deg) <= kMostLongitude_deg &&
                         position.height_m >= kLeastHeight_m && position.height_m <= kMostHeight_m;

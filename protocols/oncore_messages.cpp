@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "protocols/oncore.h"
+#include "protocols/oncore_encode.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::oncore {
@@ -16,6 +17,15 @@ bool is(Bytes frame, char first, char second) {
 
 constexpr std::size_t kTail = 3;  // checksum, CR, LF
 
+template <class Layout, class Satellite>
+void lay_out_satellite(const Layout& p, std::size_t at, Satellite& one) {
+  p.number(at, one.number);
+  p.number(at + 1, one.doppler_Hz);
+  p.number(at + 3, one.elevation_deg);
+  p.number(at + 4, one.azimuth_deg);
+  p.number(at + 6, one.health);
+}
+
 }  // namespace
 
 std::optional<VisibleSatellites> decode_bb(Bytes frame) {
@@ -25,17 +35,29 @@ std::optional<VisibleSatellites> decode_bb(Bytes frame) {
   out.count = std::min<std::size_t>(out.visible, VisibleSatellites::kSlots);
   out.in_range = true;
   for (std::size_t i = 0; i < out.count; ++i) {
-    const std::uint8_t* const p = frame.data() + 5 + 7 * i;
-    out.satellites[i] = {p[0], get_be<std::int16_t>(p + 1), p[3], get_be<std::uint16_t>(p + 4), p[6]};
-    out.in_range = out.in_range && p[3] <= 90 && get_be<std::uint16_t>(p + 4) <= 360;
+    VisibleSatellites::Satellite& one = out.satellites[i];
+    lay_out_satellite(LayoutReader(frame, true), 5 + 7 * i, one);
+    out.in_range = out.in_range && one.elevation_deg <= 90 && one.azimuth_deg <= 360;
   }
   return out;
+}
+
+std::vector<std::uint8_t> encode_bb(const VisibleSatellites& satellites) {
+  std::vector<std::uint8_t> data(1 + 7 * VisibleSatellites::kSlots);
+  data[0] = satellites.visible;
+  for (std::size_t i = 0; i < VisibleSatellites::kSlots; ++i)
+    lay_out_satellite(LayoutWriter(data, true), 1 + 7 * i, satellites.satellites[i]);
+  return encode_frame(kBb, data);
 }
 
 std::optional<UtcOffset> decode_bo(Bytes frame) {
   if (!is(frame, 'B', 'o')) return std::nullopt;
   const auto offset_s = static_cast<std::int8_t>(frame[4]);
   return offset_s == 0 ? UtcOffset{} : UtcOffset{offset_s};
+}
+
+std::vector<std::uint8_t> encode_bo(const UtcOffset& offset) {
+  return encode_frame(kBo, std::array{static_cast<std::uint8_t>(offset.offset_s.value_or(0))});
 }
 
 std::optional<LeapAnnouncement> decode_gj(Bytes frame) {
@@ -68,6 +90,12 @@ std::optional<TimeRaim> decode_hn(Bytes frame) {
 std::optional<std::string_view> decode_cj(Bytes frame) {
   if (!is(frame, 'C', 'j')) return std::nullopt;
   return std::string_view(reinterpret_cast<const char*>(frame.data()) + 4, frame.size() - 4 - kTail);
+}
+
+std::vector<std::uint8_t> encode_cj(std::string_view text) {
+  std::vector<std::uint8_t> data(kMaxLength - 7, ' ');
+  std::copy_n(text.begin(), std::min(text.size(), data.size()), data.begin());
+  return encode_frame(kCj, data);
 }
 
 }  // namespace navcal::protocols::oncore

@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "protocols/described/checksum.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::pd0 {
@@ -17,9 +18,7 @@ constexpr double kDecapascal_Pa = 10, kCentikelvin_C = 0.01;
 constexpr std::int16_t kNoVelocity = -32768;
 
 std::uint16_t sum_of(Bytes bytes) {
-  std::uint32_t sum = 0;
-  for (const std::uint8_t byte : bytes) sum += byte;
-  return static_cast<std::uint16_t>(sum);
+  return static_cast<std::uint16_t>(described::sum_of(described::Sum::sum16, bytes));
 }
 
 template <class Layout, class Leader>

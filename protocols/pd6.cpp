@@ -21,47 +21,71 @@ bool may_be_in_a_line(std::uint8_t byte) {
          byte == 'A' || byte == 'V' || byte == 'I';
 }
 
-/// Text behind the comma of a line with this name.
-std::optional<std::string_view> fields_text(Bytes frame, FrameId line) {
+void velocity(LineReader& line, std::optional<double>& value_m_s) {
+  double value_mm_s = 0;
+  line.number(value_mm_s);
+  if (std::abs(value_mm_s) < kNone_mm_s) value_m_s = value_mm_s * kMillimetre_m;
+}
+void velocity(LineWriter& line, const std::optional<double>& value_m_s) {
+  if (!value_m_s) return line.text("-32768");
+  line.number(*value_m_s / kMillimetre_m, Print{0, 5, true});
+}
+
+constexpr auto kLayOutAttitude = [](auto& line, auto& attitude) {
+  line.number(attitude.pitch_deg, Print{2, 2, true});
+  line.number(attitude.roll_deg, Print{2, 2, true});
+  line.number(attitude.heading_deg, Print{2, 2});
+};
+
+void status(LineReader& line, bool& good) { good = line.take() == "A"; }
+void status(LineWriter& line, bool good) { line.letter(good, 'A', 'V'); }
+
+constexpr auto kLayOutVelocity = [](auto& line, auto& of) {
+  for (auto& one : of.velocity_m_s) velocity(line, one);
+  if (of.line == kBottomInstrument || of.line == kWaterInstrument) velocity(line, of.error_velocity_m_s);
+  status(line, of.good);
+};
+
+constexpr auto kLayOutDistance = [](auto& line, auto& distance) {
+  line.number(distance.east_north_up_m, Print{2, 8, true});
+  line.number(distance.range_m, Print{2, 4});
+  line.number(distance.since_good_s, Print{2, 3});
+};
+
+void clock(LineReader& line, std::array<char, 14>& digits) {
+  const std::string_view text = line.take();
+  line.refuse_unless(text.size() == digits.size());
+  std::copy_n(text.begin(), std::min(text.size(), digits.size()), digits.begin());
+}
+void clock(LineWriter& line, const std::array<char, 14>& digits) { line.text({digits.data(), digits.size()}); }
+
+constexpr auto kLayOutTiming = [](auto& line, auto& timing) {
+  clock(line, timing.clock);
+  line.number(timing.salinity_ppt, Print{1, 2});
+  line.number(timing.temperature_C, Print{1, 2, true});
+  line.number(timing.depth_m, Print{1, 4});
+  line.number(timing.speed_of_sound_m_s, Print{1, 4});
+  line.number(timing.self_test, Print{0, 3});
+};
+
+/// The message of a line, whose name is one of `lines`.
+template <class Message, class LayOut>
+std::optional<Message> decoded(Bytes frame, std::initializer_list<FrameId> lines, LayOut lay_out) {
   std::string_view text(reinterpret_cast<const char*>(frame.data()), frame.size());
-  if (text.size() < kNameEnd + 1 || text.substr(1, 2) != line.view()) return std::nullopt;
-  text.remove_prefix(kNameEnd + 1);
+  if (text.size() < kNameEnd + 1) return std::nullopt;
+  const FrameId name(text.substr(1, 2));
+  if (std::find(lines.begin(), lines.end(), name) == lines.end()) return std::nullopt;
   while (text.ends_with('\n') || text.ends_with('\r')) text.remove_suffix(1);
-  return text;
+  Message message;
+  if constexpr (requires { message.line; }) message.line = name;
+  return content_of(LineReader(text.substr(std::min(text.size(), kNameEnd + 1))), lay_out, message);
 }
 
-/// A velocity field; `value` stays absent for no value. False when the field is not a number.
-bool read_velocity(std::string_view field, std::optional<double>& value_m_s) {
-  const auto value_mm_s = signed_number(field);
-  if (value_mm_s && std::abs(*value_mm_s) < kNone_mm_s) value_m_s = *value_mm_s * kMillimetre_m;
-  return value_mm_s.has_value();
+template <class Message, class LayOut>
+std::vector<std::uint8_t> encoded(FrameId name, const Message& message, LayOut lay_out) {
+  const std::string text = line_of(':' + std::string(name.view()), message, lay_out) + "\r\n";
+  return {text.begin(), text.end()};
 }
-
-void append_padded(std::string& line, double value, std::size_t digits, int decimals, bool sign) {
-  std::string text;
-  append_decimal(text, std::abs(value), decimals);
-  line += ',';
-  if (sign) line += value < 0 ? '-' : '+';
-  const std::size_t width = digits + (decimals > 0 ? static_cast<std::size_t>(decimals) + 1 : 0);
-  if (text.size() < width) line.append(width - text.size(), '0');
-  line += text;
-}
-
-void append_velocity(std::string& line, const std::optional<double>& value_m_s) {
-  if (value_m_s) {
-    append_padded(line, *value_m_s / kMillimetre_m, 5, 0, true);
-  } else {
-    line += ",-32768";
-  }
-}
-
-std::string begin(FrameId line) { return ':' + std::string(line.view()); }
-std::vector<std::uint8_t> ended(std::string line) {
-  line += "\r\n";
-  return {line.begin(), line.end()};
-}
-
-bool is_instrument(FrameId line) { return line == kBottomInstrument || line == kWaterInstrument; }
 
 }  // namespace
 
@@ -89,101 +113,25 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
 }
 
 std::optional<Attitude> decode_attitude(Bytes frame) {
-  const auto text = fields_text(frame, kAttitude);
-  const auto values = text ? numbers<3>(*text) : std::nullopt;
-  if (!values) return std::nullopt;
-  return Attitude{(*values)[0], (*values)[1], (*values)[2]};
+  return decoded<Attitude>(frame, {kAttitude}, kLayOutAttitude);
 }
-
 std::optional<Velocity> decode_velocity(Bytes frame) {
-  for (const FrameId line :
-       {kBottomInstrument, kBottomShip, kBottomEarth, kWaterInstrument, kWaterShip, kWaterEarth}) {
-    const auto text = fields_text(frame, line);
-    if (!text) continue;
-    std::string_view status;
-    Velocity velocity{line, {}, {}, false};
-    if (is_instrument(line)) {
-      const auto f = split_exactly<5>(*text);
-      if (!f || !read_velocity((*f)[3], velocity.error_velocity_m_s)) return std::nullopt;
-      status = (*f)[4];
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (!read_velocity((*f)[i], velocity.velocity_m_s[i])) return std::nullopt;
-      }
-    } else {
-      const auto f = split_exactly<4>(*text);
-      if (!f) return std::nullopt;
-      status = (*f)[3];
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (!read_velocity((*f)[i], velocity.velocity_m_s[i])) return std::nullopt;
-      }
-    }
-    velocity.good = status == "A";
-    return velocity;
-  }
-  return std::nullopt;
+  return decoded<Velocity>(
+      frame, {kBottomInstrument, kBottomShip, kBottomEarth, kWaterInstrument, kWaterShip, kWaterEarth},
+      kLayOutVelocity);
 }
-
 std::optional<Distance> decode_distance(Bytes frame) {
-  for (const FrameId line : {kBottomDistance, kWaterDistance}) {
-    const auto text = fields_text(frame, line);
-    if (!text) continue;
-    const auto v = numbers<5>(*text);
-    if (!v) return std::nullopt;
-    return Distance{line, {(*v)[0], (*v)[1], (*v)[2]}, (*v)[3], (*v)[4]};
-  }
-  return std::nullopt;
+  return decoded<Distance>(frame, {kBottomDistance, kWaterDistance}, kLayOutDistance);
 }
-
-std::optional<Timing> decode_timing(Bytes frame) {
-  const auto text = fields_text(frame, kTiming);
-  const auto f = text ? split_exactly<6>(*text) : std::nullopt;
-  if (!f || (*f)[0].size() != Timing{}.clock.size()) return std::nullopt;
-  Timing timing;
-  std::copy((*f)[0].begin(), (*f)[0].end(), timing.clock.begin());
-  const auto salinity = signed_number((*f)[1]), temperature = signed_number((*f)[2]);
-  const auto depth = signed_number((*f)[3]), sound = signed_number((*f)[4]);
-  const auto test = integer<std::uint16_t>((*f)[5]);
-  if (!salinity || !temperature || !depth || !sound || !test) return std::nullopt;
-  timing.salinity_ppt = *salinity;
-  timing.temperature_C = *temperature;
-  timing.depth_m = *depth;
-  timing.speed_of_sound_m_s = *sound;
-  timing.self_test = *test;
-  return timing;
-}
+std::optional<Timing> decode_timing(Bytes frame) { return decoded<Timing>(frame, {kTiming}, kLayOutTiming); }
 
 std::vector<std::uint8_t> encode(const Attitude& attitude) {
-  std::string line = begin(kAttitude);
-  append_padded(line, attitude.pitch_deg, 2, 2, true);
-  append_padded(line, attitude.roll_deg, 2, 2, true);
-  append_padded(line, attitude.heading_deg, 2, 2, false);
-  return ended(line);
+  return encoded(kAttitude, attitude, kLayOutAttitude);
 }
-
-std::vector<std::uint8_t> encode(const Velocity& velocity) {
-  std::string line = begin(velocity.line);
-  for (const auto& one : velocity.velocity_m_s) append_velocity(line, one);
-  if (is_instrument(velocity.line)) append_velocity(line, velocity.error_velocity_m_s);
-  line += velocity.good ? ",A" : ",V";
-  return ended(line);
-}
-
+std::vector<std::uint8_t> encode(const Velocity& of) { return encoded(of.line, of, kLayOutVelocity); }
 std::vector<std::uint8_t> encode(const Distance& distance) {
-  std::string line = begin(distance.line);
-  for (const double one : distance.east_north_up_m) append_padded(line, one, 8, 2, true);
-  append_padded(line, distance.range_m, 4, 2, false);
-  append_padded(line, distance.since_good_s, 3, 2, false);
-  return ended(line);
+  return encoded(distance.line, distance, kLayOutDistance);
 }
-
-std::vector<std::uint8_t> encode(const Timing& timing) {
-  std::string line = begin(kTiming) + ',' + std::string(timing.clock.begin(), timing.clock.end());
-  append_padded(line, timing.salinity_ppt, 2, 1, false);
-  append_padded(line, timing.temperature_C, 2, 1, true);
-  append_padded(line, timing.depth_m, 4, 1, false);
-  append_padded(line, timing.speed_of_sound_m_s, 4, 1, false);
-  append_padded(line, timing.self_test, 3, 0, false);
-  return ended(line);
-}
+std::vector<std::uint8_t> encode(const Timing& timing) { return encoded(kTiming, timing, kLayOutTiming); }
 
 }  // namespace navcal::protocols::pd6

@@ -2,10 +2,11 @@
 #include "protocols/samples_line.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <utility>
+
+#include "protocols/decimal.h"
 
 namespace navcal::protocols::samples_line {
 
@@ -55,12 +56,6 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
 }
 
 namespace {
-
-void append_shortest(std::string& text, double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  text.append(digits, static_cast<std::size_t>(end - digits));
-}
 
 /// Bytes of the UTF-8 sequence at the beginning of `text`; 0 when it is none.
 std::size_t utf8_length(std::string_view text) {
@@ -134,16 +129,8 @@ LineWriter& LineWriter::number(std::string_view key, const std::optional<double>
 }
 
 LineWriter& LineWriter::vector(std::string_view key, const std::array<double, 3>& values) {
-  if (!std::isfinite(values[0]) || !std::isfinite(values[1]) || !std::isfinite(values[2])) return *this;
-  begin(key);
-  char separator = '[';
-  for (const double value : values) {
-    line_ += separator;
-    append_shortest(line_, value);
-    separator = ',';
-  }
-  line_ += ']';
-  return *this;
+  const bool is_finite = std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
+  return is_finite ? three(key, {values[0], values[1], values[2]}) : *this;
 }
 
 LineWriter& LineWriter::three(std::string_view key, const std::array<std::optional<double>, 3>& values) {

@@ -5,35 +5,12 @@
 #include <array>
 #include <cassert>
 
+#include "protocols/crc16.h"
 #include "protocols/decimal.h"
 #include "protocols/fletcher.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::ubx {
-
-namespace {
-
-/// CRC-24Q (RTCM 10403.3, 4.2): polynomial 0x1864CFB, start 0, not reflected.
-constexpr auto kCrc24Table = [] {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    std::uint32_t remainder = byte << 16;
-    for (int bit = 0; bit < 8; ++bit) {
-      remainder <<= 1;
-      if ((remainder & 0x1000000U) != 0) remainder ^= 0x1864CFBU;
-    }
-    table[byte] = remainder;
-  }
-  return table;
-}();
-
-std::uint32_t crc24q(Bytes bytes) {
-  std::uint32_t crc = 0;
-  for (const std::uint8_t byte : bytes) crc = ((crc << 8) & 0xFFFFFFU) ^ kCrc24Table[(crc >> 16) ^ byte];
-  return crc;
-}
-
-}  // namespace
 
 FrameId id_of(MessageCode code) {
   if (const std::string_view name = name_of(code); !name.empty()) return FrameId(name);
@@ -45,6 +22,11 @@ FrameId id_of(MessageCode code) {
 std::optional<MessageCode> code_of(const Frame& frame) {
   if (kind_of(frame) != Kind::ubx) return std::nullopt;
   return get_be<MessageCode>(frame.bytes.data() + 2);
+}
+
+std::optional<Bytes> payload_if(Bytes frame, MessageCode code, std::size_t least) {
+  if (frame.size() < kOverhead + least || get_be<MessageCode>(frame.data() + 2) != code) return std::nullopt;
+  return payload_of(frame);
 }
 
 Kind kind_of(const Frame& frame) {

@@ -41,6 +41,8 @@ inline constexpr FrameId kRtcm3{"RTCM3"};
 [[nodiscard]] std::optional<MessageCode> code_of(const Frame& frame);
 /// Payload of an intact UBX frame.
 [[nodiscard]] inline Bytes payload_of(Bytes frame) { return frame.subspan(6, frame.size() - kOverhead); }
+/// The same of a frame of this message, if it is long enough.
+[[nodiscard]] std::optional<Bytes> payload_if(Bytes frame, MessageCode code, std::size_t least);
 
 /// Frames of UBX alone.
 struct Scanner : StartsWith<0xB5> {

@@ -7,16 +7,10 @@
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::ubx {
-namespace {
-
-MessageCode code_in(Bytes frame) { return frame.size() < kOverhead ? 0 : get_be<MessageCode>(frame.data() + 2); }
-
-}  // namespace
-
 std::optional<Acknowledgement> decode_acknowledgement(Bytes frame) {
-  const MessageCode code = code_in(frame);
-  if ((code != kAckAck && code != kAckNak) || frame.size() < kOverhead + 2) return std::nullopt;
-  return Acknowledgement{get_be<MessageCode>(payload_of(frame).data()), code == kAckAck};
+  const auto accepted = payload_if(frame, kAckAck, 2), refused = payload_if(frame, kAckNak, 2);
+  if (!accepted && !refused) return std::nullopt;
+  return Acknowledgement{get_be<MessageCode>(accepted ? accepted->data() : refused->data()), accepted.has_value()};
 }
 
 std::vector<std::uint8_t> encode_acknowledgement(const Acknowledgement& acknowledgement) {
@@ -26,9 +20,9 @@ std::vector<std::uint8_t> encode_acknowledgement(const Acknowledgement& acknowle
 }
 
 std::optional<MessageRate> decode_cfg_msg(Bytes frame) {
-  if (code_in(frame) != kCfgMsg || frame.size() != kOverhead + 3) return std::nullopt;
-  const Bytes payload = payload_of(frame);
-  return MessageRate{get_be<MessageCode>(payload.data()), payload[2]};
+  const auto payload = payload_if(frame, kCfgMsg, 3);
+  if (!payload || payload->size() != 3) return std::nullopt;
+  return MessageRate{get_be<MessageCode>(payload->data()), (*payload)[2]};
 }
 
 std::vector<std::uint8_t> encode_cfg_msg(const MessageRate& rate) {
@@ -39,9 +33,9 @@ std::vector<std::uint8_t> encode_cfg_msg(const MessageRate& rate) {
 }
 
 std::optional<EpochRate> decode_cfg_rate(Bytes frame) {
-  if (code_in(frame) != kCfgRate || frame.size() != kOverhead + 6) return std::nullopt;
-  const Bytes payload = payload_of(frame);
-  return EpochRate{get_le<std::uint16_t>(payload.data()), get_le<std::uint16_t>(payload.data() + 2)};
+  const auto payload = payload_if(frame, kCfgRate, 6);
+  if (!payload || payload->size() != 6) return std::nullopt;
+  return EpochRate{get_le<std::uint16_t>(payload->data()), get_le<std::uint16_t>(payload->data() + 2)};
 }
 
 std::vector<std::uint8_t> encode_cfg_rate(const EpochRate& rate) {
@@ -52,10 +46,10 @@ std::vector<std::uint8_t> encode_cfg_rate(const EpochRate& rate) {
 }
 
 std::optional<ValueSet> decode_cfg_valset(Bytes frame) {
-  if (code_in(frame) != kCfgValset || frame.size() < kOverhead + 4) return std::nullopt;
-  const Bytes payload = payload_of(frame);
-  ValueSet set{payload[1], {}};
-  for (Bytes rest = payload.subspan(4); !rest.empty();) {
+  const auto payload = payload_if(frame, kCfgValset, 4);
+  if (!payload) return std::nullopt;
+  ValueSet set{(*payload)[1], {}};
+  for (Bytes rest = payload->subspan(4); !rest.empty();) {
     if (rest.size() < 4) return std::nullopt;
     const auto key = get_le<std::uint32_t>(rest.data());
     const std::size_t size = value_size(key);

@@ -16,12 +16,6 @@ constexpr std::size_t kPvtLength = 92, kPvtLengthOld = 84;  // the old one is th
 constexpr std::size_t kHnrPvtLength = 72, kAttitudeLength = 32, kRelPosLength = 64, kRelPosLengthOld = 40;
 constexpr std::size_t kTimeGpsLength = 16, kDopLength = 18, kSatHeader = 8, kSatSlot = 12;
 
-/// Payload of a frame of this message, if it is long enough.
-std::optional<Bytes> payload_if(Bytes frame, MessageCode code, std::size_t least) {
-  if (frame.size() < kOverhead + least || get_be<MessageCode>(frame.data() + 2) != code) return std::nullopt;
-  return payload_of(frame);
-}
-
 template <std::integral T>
 double scaled(Bytes payload, std::size_t at, double step) {
   return static_cast<double>(get_le<T>(payload.data() + at)) * step;

@@ -26,15 +26,12 @@ void append_text(std::vector<std::uint8_t>& payload, const std::string& text, st
   std::copy_n(text.begin(), std::min(text.size(), length), payload.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
-bool is_message(Bytes frame, MessageCode code, std::size_t least) {
-  return frame.size() >= kOverhead + least && get_be<MessageCode>(frame.data() + 2) == code;
-}
-
 }  // namespace
 
 std::optional<Version> decode_mon_ver(Bytes frame) {
-  if (!is_message(frame, kMonVer, kSoftwareLength + kHardwareLength)) return std::nullopt;
-  Bytes rest = payload_of(frame);
+  const auto payload = payload_if(frame, kMonVer, kSoftwareLength + kHardwareLength);
+  if (!payload) return std::nullopt;
+  Bytes rest = *payload;
   Version version{
       text_in(rest.first(kSoftwareLength)), text_in(rest.subspan(kSoftwareLength, kHardwareLength)), {}};
   for (rest = rest.subspan(kSoftwareLength + kHardwareLength); rest.size() >= kExtensionLength;
@@ -53,8 +50,9 @@ std::vector<std::uint8_t> encode_mon_ver(const Version& version) {
 }
 
 std::optional<TimePulse> decode_tim_tp(Bytes frame) {
-  if (!is_message(frame, kTimTp, kPulseLength)) return std::nullopt;
-  const Bytes p = payload_of(frame);
+  const auto payload = payload_if(frame, kTimTp, kPulseLength);
+  if (!payload) return std::nullopt;
+  const Bytes p = *payload;
   return TimePulse{get_le<std::uint32_t>(&p[0]), get_le<std::uint32_t>(&p[4]) * kPulseFraction_ms,
                    get_le<std::int32_t>(&p[8]),  get_le<std::uint16_t>(&p[12]),
                    (p[14] & kPulseUtc) != 0,     (p[14] & kPulseQuantizationInvalid) == 0};

@@ -37,48 +37,32 @@ constexpr LineForm kForms[] = {
 }  // namespace
 
 std::optional<Reading> decode_line(Bytes frame) {
-  std::string_view rest = body_of(frame);
-  const auto take = [&rest] {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const std::string_view field = rest.substr(0, comma);
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-    return field;
-  };
-  if (rest.ends_with(',')) return std::nullopt;
-  const std::string_view name = take();
+  LineReader line(body_of(frame));
+  const std::string_view name = line.take();
   const auto* const form = std::ranges::find_if(kForms, [&](const LineForm& one) { return one.name == name; });
   if (form == std::end(kForms)) return std::nullopt;
-  bool is_good = true;
-  const auto number = [&] {
-    const auto value = signed_number(take());
-    is_good = is_good && value;
-    return value.value_or(0);
-  };
   Reading reading;
   for (const auto& [member, unit] : form->parts) {
     if (member == nullptr) continue;
-    for (double& value : (reading.*member).emplace()) value = number() * unit;
+    line.number((reading.*member).emplace());
+    for (double& value : *(reading.*member)) value *= unit;
   }
   if (form->name == "VNIMU") {
-    reading.temperature_C = number();
-    reading.pressure_Pa = number() * kLineKilopascal_Pa;
+    line.number(reading.temperature_C.emplace());
+    line.number(reading.pressure_Pa.emplace());
+    *reading.pressure_Pa *= kLineKilopascal_Pa;
   }
-  return is_good && rest.empty() ? std::optional(reading) : std::nullopt;
+  return line.are_good() ? std::optional(reading) : std::nullopt;
 }
 
 std::vector<std::uint8_t> encode_line(const Reading& reading) {
-  std::string body = "VNYMR";
-  const auto append = [&](const std::optional<Triple>& values, double unit, int decimals) {
-    for (const double value : values.value_or(Triple{})) {
-      body += ',';
-      append_decimal(body, value / unit, decimals);
-    }
-  };
-  append(reading.yaw_pitch_roll_deg, 1, 3);
-  append(reading.field_uT, kLineGauss_uT, 4);
-  append(reading.acceleration_m_s2, 1, 3);
-  append(reading.rate_rad_s, 1, 6);
-  return checked_line(body);
+  LineWriter line(kForms[0].name);
+  constexpr int kDecimals[] = {3, 4, 3, 6};
+  for (std::size_t i = 0; i < std::size(kDecimals); ++i) {
+    const auto& [member, unit] = kForms[0].parts[i];
+    for (const double value : (reading.*member).value_or(Triple{})) line.number(value / unit, Print{kDecimals[i]});
+  }
+  return checked_line(line.line());
 }
 
 std::optional<Register> decode_register(Bytes frame) {

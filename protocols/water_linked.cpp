@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/water_linked.h"
 
-#include <charconv>
-#include <concepts>
 #include <string>
-#include <utility>
 
 #include "protocols/checked_line.h"
-#include "protocols/decimal.h"
-#include "protocols/described/checksum.h"
+#include "protocols/crc16.h"
 #include "protocols/samples_line.h"
 #include "protocols/text_fields.h"
 
@@ -42,63 +38,64 @@ std::optional<std::array<double, 9>> read_covariance(std::string_view text) {
   return covariance;
 }
 
-/// The fields of a line, one after the other. What is no number where one should be refuses the line.
-class Fields {
- public:
-  explicit Fields(std::string_view text) : rest_(text) {}
-  template <class... Values>
-  void operator()(Values&... values) {
-    (read(values), ...);
+void covariance(LineReader& line, std::optional<std::array<double, 9>>& values) {
+  values = read_covariance(line.take());
+  line.refuse_unless(values.has_value());
+}
+void covariance(LineWriter& line, const std::optional<std::array<double, 9>>& values) {
+  std::string text;
+  for (const double one : values.value_or(std::array<double, 9>{})) {
+    if (!text.empty()) text += ';';
+    append_shortest(text, one);
   }
-  /// Whether all fields were read and could be what they should be.
-  [[nodiscard]] bool are_good() const { return is_good_ && is_over_; }
-
- private:
-  std::string_view take() {
-    is_good_ = is_good_ && !is_over_;
-    const std::size_t comma = rest_.find(',');
-    const std::string_view field = rest_.substr(0, comma);
-    is_over_ = comma == std::string_view::npos;
-    rest_.remove_prefix(is_over_ ? rest_.size() : comma + 1);
-    return field;
-  }
-  template <class T>
-  void keep(T& value, const std::optional<T>& read) {
-    is_good_ = is_good_ && read;
-    value = read.value_or(T{});
-  }
-  void read(double& value) { keep(value, signed_number(take())); }
-  void read(std::array<double, 3>& values) {
-    for (double& value : values) read(value);
-  }
-  template <std::integral T>
-  void read(T& value) {
-    keep(value, integer<T>(take()));
-  }
-  void read(bool& valid) {
-    const std::string_view field = take();
-    valid = field == "y";
-    is_good_ = is_good_ && (valid || field == "n");
-  }
-  void read(std::optional<std::int64_t>& value) { read(value.emplace()); }
-  void read(std::optional<std::array<double, 9>>& covariance) {
-    covariance = read_covariance(take());
-    is_good_ = is_good_ && covariance;
-  }
-
-  std::string_view rest_;
-  bool is_good_ = true, is_over_ = false;
-};
-
-void append_field(std::string& line, double value, int decimals) {
-  line += ',';
-  append_decimal(line, value, decimals);
+  line.text(text);
 }
 
-void append_shortest(std::string& line, double value) {
-  char digits[32];
-  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
-  line.append(digits, end);
+/// What a line always has, whatever the member may lack.
+void stated(LineReader& line, std::optional<std::int64_t>& value) { line.number(value.emplace()); }
+void stated(LineWriter& line, const std::optional<std::int64_t>& value) { line.number(value.value_or(0)); }
+
+constexpr auto kLayOutVelocity = [](auto& line, auto& v) {
+  line.number(v.velocity_m_s, Print{3});
+  line.letter(v.valid, 'y', 'n');
+  line.number(v.altitude_m, Print{2});
+  line.number(v.figure_of_merit_m_s, Print{3});
+  covariance(line, v.covariance_m2_s2);
+  stated(line, v.valid_at_us);
+  stated(line, v.transmitted_at_us);
+  line.number(v.since_last_ms, Print{2});
+  line.number(v.status);
+};
+
+constexpr auto kLayOutVelocityOld = [](LineReader& line, Velocity& v) {
+  line.number(v.since_last_ms);
+  line.number(v.velocity_m_s);
+  line.number(v.figure_of_merit_m_s);
+  line.number(v.altitude_m);
+  line.letter(v.valid, 'y', 'n');
+  line.number(v.status);
+};
+
+constexpr auto kLayOutTransducer = [](auto& line, auto& t) {
+  line.number(t.number);
+  line.number(t.velocity_m_s, Print{3});
+  line.number(t.distance_m, Print{2});
+  line.number(t.signal_dBm, Print{0});
+  line.number(t.noise_dBm, Print{0});
+};
+
+constexpr auto kLayOutPosition = [](LineReader& line, Position& p) {
+  line.number(p.time_s);
+  line.number(p.position_m);
+  for (double* const value : {&p.std_m, &p.roll_deg, &p.pitch_deg, &p.yaw_deg}) line.number(*value);
+  line.number(p.status);
+};
+
+/// The content of a line with this name.
+template <class Content, class LayOut>
+std::optional<Content> decoded(Bytes frame, FrameId name, LayOut lay_out) {
+  const auto text = body_text(frame, name);
+  return text ? content_of<Content>(LineReader(*text), lay_out) : std::nullopt;
 }
 
 /// An object and the end of its line. Brackets are counted, so that a line that was cut costs no other.
@@ -163,16 +160,7 @@ std::optional<Velocity> decode_json_velocity(const samples_line::Object& object)
   return valid && number.fields.all_good() ? std::optional(v) : std::nullopt;
 }
 
-template <class Content>
-std::optional<Content> if_good(const Fields& fields, const Content& content) {
-  return fields.are_good() ? std::optional(content) : std::nullopt;
-}
-
 }  // namespace
-
-std::uint8_t crc8(Bytes bytes) {
-  return static_cast<std::uint8_t>(described::sum_of(described::Sum::crc8, bytes));
-}
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   if (*first == '{') return scan_object(first, last);
@@ -200,52 +188,18 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
 
 std::optional<Velocity> decode_velocity(Bytes frame) {
   if (const auto object = samples_line::Object::parse(frame, true)) return decode_json_velocity(*object);
-  Velocity v;
-  if (const auto text = body_text(frame, kVelocity)) {
-    Fields fields(*text);
-    fields(v.velocity_m_s, v.valid, v.altitude_m, v.figure_of_merit_m_s, v.covariance_m2_s2, v.valid_at_us,
-           v.transmitted_at_us, v.since_last_ms, v.status);
-    return if_good(fields, v);
-  }
-  const auto text = body_text(frame, kVelocityOld);
-  if (!text) return std::nullopt;
-  Fields fields(*text);
-  fields(v.since_last_ms, v.velocity_m_s, v.figure_of_merit_m_s, v.altitude_m, v.valid, v.status);
-  return if_good(fields, v);
+  if (body_text(frame, kVelocity)) return decoded<Velocity>(frame, kVelocity, kLayOutVelocity);
+  return decoded<Velocity>(frame, kVelocityOld, kLayOutVelocityOld);
 }
-
 std::vector<std::uint8_t> encode(const Velocity& v) {
-  std::string line(kVelocity.view());
-  for (const double one : v.velocity_m_s) append_field(line, one, 3);
-  line += v.valid ? ",y" : ",n";
-  append_field(line, v.altitude_m, 2);
-  append_field(line, v.figure_of_merit_m_s, 3);
-  char separator = ',';
-  for (const double one : v.covariance_m2_s2.value_or(std::array<double, 9>{})) {
-    line += std::exchange(separator, ';');
-    append_shortest(line, one);
-  }
-  line += ',' + std::to_string(v.valid_at_us.value_or(0)) + ',' + std::to_string(v.transmitted_at_us.value_or(0));
-  append_field(line, v.since_last_ms, 2);
-  return encode_line(line + ',' + std::to_string(v.status));
+  return encode_line(line_of(kVelocity.view(), v, kLayOutVelocity));
 }
 
 std::optional<Transducer> decode_transducer(Bytes frame) {
-  const auto text = body_text(frame, kTransducer);
-  if (!text) return std::nullopt;
-  Transducer t;
-  Fields fields(*text);
-  fields(t.number, t.velocity_m_s, t.distance_m, t.signal_dBm, t.noise_dBm);
-  return if_good(fields, t);
+  return decoded<Transducer>(frame, kTransducer, kLayOutTransducer);
 }
-
 std::vector<std::uint8_t> encode(const Transducer& t) {
-  std::string line = std::string(kTransducer.view()) + ',' + std::to_string(t.number);
-  append_field(line, t.velocity_m_s, 3);
-  append_field(line, t.distance_m, 2);
-  append_field(line, t.signal_dBm, 0);
-  append_field(line, t.noise_dBm, 0);
-  return encode_line(line);
+  return encode_line(line_of(kTransducer.view(), t, kLayOutTransducer));
 }
 
 std::optional<Position> decode_position(Bytes frame) {
@@ -260,12 +214,7 @@ std::optional<Position> decode_position(Bytes frame) {
                      number.fields.integer("status", UINT32_MAX).value_or(0)};
     return number.fields.all_good() ? std::optional(p) : std::nullopt;
   }
-  const auto text = body_text(frame, kPosition);
-  if (!text) return std::nullopt;
-  Position p;
-  Fields fields(*text);
-  fields(p.time_s, p.position_m, p.std_m, p.roll_deg, p.pitch_deg, p.yaw_deg, p.status);
-  return if_good(fields, p);
+  return decoded<Position>(frame, kPosition, kLayOutPosition);
 }
 
 std::vector<std::uint8_t> encode_line(std::string_view body) {

@@ -18,9 +18,6 @@ namespace navcal::protocols::water_linked {
 inline constexpr FrameId kVelocity{"wrz"}, kVelocityOld{"wrx"}, kTransducer{"wru"}, kPosition{"wrp"},
     kVelocityJson{"velocity"}, kPositionJson{"position_local"};
 
-/// CRC-8: polynomial 0x07, start 0, not reflected, no final xor; "123456789" gives 0xF4.
-[[nodiscard]] std::uint8_t crc8(Bytes bytes);
-
 /// Lines from the instrument. The identifier is `wr` and the letter, or the type of the object.
 struct Scanner : StartsWith<'w', '{'> {
   static constexpr std::size_t kMaxFrameLength = 2048;  ///< of a velocity in JSON, twice its usual length

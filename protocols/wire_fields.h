@@ -79,21 +79,30 @@ template <std::integral T>
   return static_cast<T>(rounded);
 }
 
-/// Fields of a little-endian message at their places. A layout is stated once, as a function of one of these two:
-/// the one takes the members from the message, the other puts them into it.
+/// Fields of a message at their places, little-endian unless it is said otherwise. A layout is stated once, as a
+/// function of one of these two: the one takes the members from the message, the other puts them into it.
 class LayoutReader {
  public:
-  explicit LayoutReader(Bytes message) : message_(message) {}
+  explicit LayoutReader(Bytes message, bool is_big = false) : message_(message), is_big_(is_big) {}
 
   [[nodiscard]] std::size_t size() const { return message_.size(); }
   template <WireNumber T>
   void number(std::size_t at, T& value) const {
-    value = get_le<T>(&message_[at]);
+    value = is_big_ ? get_be<T>(&message_[at]) : get_le<T>(&message_[at]);
   }
   /// A whole number of steps.
   template <std::integral T>
   void scaled(std::size_t at, double& value, double step) const {
-    value = static_cast<double>(get_le<T>(&message_[at])) * step;
+    T steps{};
+    number(at, steps);
+    value = static_cast<double>(steps) * step;
+  }
+  /// A whole number of parts, of which the unit has so many.
+  template <std::integral T>
+  void parts(std::size_t at, double& value, double per_unit) const {
+    T parts{};
+    number(at, parts);
+    value = static_cast<double>(parts) / per_unit;
   }
   template <class T>
   void bits(std::size_t at, unsigned lowest, unsigned width, T& value) const {
@@ -102,20 +111,26 @@ class LayoutReader {
 
  private:
   Bytes message_;
+  bool is_big_;
 };
 
 class LayoutWriter {
  public:
-  explicit LayoutWriter(std::vector<std::uint8_t>& message) : message_(message) {}
+  explicit LayoutWriter(std::vector<std::uint8_t>& message, bool is_big = false)
+      : message_(message), is_big_(is_big) {}
 
   [[nodiscard]] std::size_t size() const { return message_.size(); }
   template <WireNumber T>
   void number(std::size_t at, const T& value) const {
-    put_le(&message_[at], value);
+    is_big_ ? put_be(&message_[at], value) : put_le(&message_[at], value);
   }
   template <std::integral T>
   void scaled(std::size_t at, double value, double step) const {
-    put_le(&message_[at], saturated<T>(value / step));
+    number(at, saturated<T>(value / step));
+  }
+  template <std::integral T>
+  void parts(std::size_t at, double value, double per_unit) const {
+    number(at, saturated<T>(value * per_unit));
   }
   template <class T>
   void bits(std::size_t at, unsigned lowest, unsigned width, const T& value) const {
@@ -126,6 +141,7 @@ class LayoutWriter {
 
  private:
   std::vector<std::uint8_t>& message_;
+  bool is_big_;
 };
 
 }  // namespace navcal::protocols

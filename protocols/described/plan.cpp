@@ -7,34 +7,10 @@
 namespace navcal::protocols::described {
 namespace {
 
-bool is_nmea_line(const KindPlan& kind) {
+bool is_nmea_line(const FrameKind& kind) {
   const Checksum& sum = kind.checksum;
   return sum.sum == Sum::xor8 && sum.mark == '*' && sum.from == 1 && kind.end == '\n' &&
          kind.start.starts_with('$');
-}
-
-KindPlan plan_of(const FrameKind& kind, bool is_text) {
-  KindPlan plan;
-  plan.id = kind.id;
-  plan.start = kind.start;
-  plan.constants = kind.constants;
-  plan.length = {kind.length.at, kind.length.type, kind.length.byte_order == ByteOrder::big};
-  plan.fixed_length = kind.length.fixed;
-  plan.least = is_text ? 1 : least_length(kind);
-  plan.longest = std::min(kind.length.longest, kMaxFrameLength);
-  plan.times = kind.length.times;
-  plan.add = kind.length.add;
-  plan.checksum = kind.checksum;
-  plan.sum_size = size_of(kind.checksum.sum);
-  plan.end = kind.end;
-  plan.separator = kind.separator;
-  plan.count = kind.count;
-  plan.is_text = is_text;
-  plan.is_nmea = is_text && is_nmea_line(plan);
-  plan.starts_anywhere = is_text && kind.start.empty();
-  plan.start_is_sign =
-      is_text && !kind.start.empty() && std::isalnum(static_cast<unsigned char>(kind.start.front())) == 0;
-  return plan;
 }
 
 template <std::size_t Size>
@@ -46,11 +22,21 @@ std::uint32_t unsigned_at(const std::uint8_t* p, bool is_big) {
 
 }  // namespace
 
+KindPlan::KindPlan(const FrameKind& kind, bool text)
+    : FrameKind(kind), least(text ? 1 : least_length(kind)),
+      longest(std::min(kind.length.longest, kMaxFrameLength)), sum_size(size_of(kind.checksum.sum)),
+      is_text(text) {
+  fields.clear();
+  is_nmea = text && is_nmea_line(kind);
+  starts_anywhere = text && start.empty();
+  start_is_sign = text && !start.empty() && std::isalnum(static_cast<unsigned char>(start.front())) == 0;
+}
+
 std::shared_ptr<const Plan> compile(const Description& description) {
   auto plan = std::make_shared<Plan>();
   bool all_summed = true;
   for (const FrameKind& kind : description.kinds) {
-    plan->kinds.push_back(plan_of(kind, description.is_text));
+    plan->kinds.emplace_back(kind, description.is_text);
     if (!kind.start.empty()) {
       plan->starts.at(static_cast<std::uint8_t>(kind.start.front())) = true;
       continue;

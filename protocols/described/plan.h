@@ -11,25 +11,13 @@
 
 namespace navcal::protocols::described {
 
-/// A number of a binary frame, ready to be read.
-struct NumberPlan {
-  std::uint16_t at = 0;
-  Type type = Type::u8;
-  bool is_big = false;
-};
+/// One kind of frame, ready to be found; without its fields.
+struct KindPlan : FrameKind {
+  KindPlan() = default;
+  KindPlan(const FrameKind& kind, bool text);
 
-/// One kind of frame, ready to be found.
-struct KindPlan {
-  FrameId id;
-  std::string start;
-  std::vector<Constant> constants;
-  NumberPlan length;  ///< where the frame states it
-  std::size_t fixed_length = 0, least = 0, longest = kMaxFrameLength;
-  int times = 1, add = 0;
-  Checksum checksum;
+  std::size_t least = 0, longest = kMaxFrameLength;
   std::size_t sum_size = 0;
-  char end = '\n', separator = ',';
-  std::size_t count = 0;
   bool is_text = false;
   bool is_nmea = false;          ///< the line of protocols/checked_line.h
   bool starts_anywhere = false;  ///< no start characters: a line begins behind the end of another

@@ -35,11 +35,7 @@ std::string_view value_of_key(const TextFields& fields, std::string_view key, ch
 
 }  // namespace
 
-FrameReader::FrameReader(const FrameKind& kind, bool is_text) : key_sign_(kind.key_sign) {
-  Description alone;
-  alone.is_text = is_text;
-  alone.kinds.push_back(kind);
-  kind_ = compile(alone)->kinds.front();
+FrameReader::FrameReader(const FrameKind& kind, bool is_text) : kind_(kind, is_text) {
   if (!is_text && kind.checksum.sum != Sum::none && kind.checksum.at < 0)
     tail_ = static_cast<std::size_t>(-kind.checksum.at);
   for (const Field& field : kind.fields) fields_.push_back(plan_of(field));
@@ -115,7 +111,7 @@ bool FrameReader::for_each_text_value(Bytes frame, Use use) const {
   bool all_are_numbers = true;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const FieldPlan& field = fields_[i];
-    const std::string_view text = field.at > 0 ? texts[field.at] : value_of_key(texts, field.key, key_sign_);
+    const std::string_view text = field.at > 0 ? texts[field.at] : value_of_key(texts, field.key, kind_.key_sign);
     double value = kNoValue;
     const bool is_empty = field.type == Type::nmea ? text.empty() : without_blanks(text).empty();
     if (!is_empty) {

@@ -57,7 +57,6 @@ class FrameReader {
   bool for_each_text_value(Bytes frame, Use use) const;
 
   KindPlan kind_;
-  char key_sign_;
   std::size_t tail_ = 0;  ///< bytes at the end of a binary frame that belong to its checksum
   std::vector<FieldPlan> fields_;
 };

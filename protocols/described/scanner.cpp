@@ -38,11 +38,13 @@ Scan scan_binary(const KindPlan& kind, const std::uint8_t* first, std::size_t av
   for (const Constant& constant : kind.constants) {
     if (!begins_with(first, available, constant.at, constant.bytes)) return Scan::not_a_frame();
   }
-  std::size_t length = kind.fixed_length;
+  std::size_t length = kind.length.fixed;
   if (length == 0) {
     if (available < kind.length.at + size_of(kind.length.type)) return Scan::incomplete(kind.least - available);
     const std::int64_t stated =
-        integer_at(first + kind.length.at, kind.length.type, kind.length.is_big) * kind.times + kind.add;
+        integer_at(first + kind.length.at, kind.length.type, kind.length.byte_order == ByteOrder::big) *
+            kind.length.times +
+        kind.length.add;
     if (stated < static_cast<std::int64_t>(kind.least) || stated > static_cast<std::int64_t>(kind.longest))
       return Scan::not_a_frame();
     length = static_cast<std::size_t>(stated);

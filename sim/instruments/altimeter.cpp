@@ -19,9 +19,6 @@ std::optional<double> slant_range_m(const SeaFloor& floor, const State& state) {
   return height_m / closing;
 }
 
-Altimeter::Altimeter(const Options& options, const Motion& motion)
-    : LineDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
-
 std::optional<double> Altimeter::measure_m(std::int64_t t_ns) {
   const auto range_m = slant_range_m(options_.floor, motion_.at(t_ns));
   // Both are drawn whether they are needed or not: then an echo does not change the noise of those after it.

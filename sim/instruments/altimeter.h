@@ -25,21 +25,22 @@ struct SeaFloor {
 /// meet it. Zero or less: the vehicle is in the floor.
 [[nodiscard]] std::optional<double> slant_range_m(const SeaFloor& floor, const State& state);
 
+struct AltimeterOptions {
+  SeaFloor floor;
+  double rate_Hz = 5;
+  double noise_m = 0.05;
+  double range_m = 100;
+  double least_range_m = 0.3;
+  double lost = 0.02;  ///< probability that an echo is lost
+  std::uint64_t seed = 1;
+  int baud = 4800;
+};
+
 /// Echo sounder that looks along the body's z axis: NMEA 0183 sentences DBT with the slant range. An empty field
 /// stands for no echo: beyond the range, nearer than the transducer can hear, or lost.
-class Altimeter final : public LineDevice {
+class Altimeter final : public MeasuringDevice<AltimeterOptions> {
  public:
-  struct Options {
-    SeaFloor floor;
-    double rate_Hz = 5;
-    double noise_m = 0.05;
-    double range_m = 100;
-    double least_range_m = 0.3;
-    double lost = 0.02;  ///< probability that an echo is lost
-    std::uint64_t seed = 1;
-    int baud = 4800;
-  };
-  Altimeter(const Options& options, const Motion& motion);
+  using MeasuringDevice::MeasuringDevice;
 
   void power_on(std::int64_t t_ns) override { ticks_ = Ticks(t_ns, 1 / options_.rate_Hz, 0); }
   /// What it says at t_ns: nullopt without an echo.
@@ -47,9 +48,6 @@ class Altimeter final : public LineDevice {
 
  private:
   void act(std::int64_t now_ns, std::vector<Emission>& out) override;
-  Options options_;
-  const Motion& motion_;
-  Noise noise_;
 };
 
 }  // namespace navcal::sim

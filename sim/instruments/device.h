@@ -11,6 +11,7 @@
 
 #include "protocols/frame.h"
 #include "sim/noise.h"
+#include "sim/state.h"
 
 namespace navcal::sim {
 
@@ -128,6 +129,20 @@ class CommandedDevice : public LineDevice {
 
  private:
   Parser parser_;
+};
+
+/// A device that measures the motion of a vehicle, with noise of its own.
+template <class DeviceOptions, class Base = LineDevice>
+class MeasuringDevice : public Base {
+ public:
+  using Options = DeviceOptions;
+  MeasuringDevice(const Options& options, const Motion& motion)
+      : Base(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
+
+ protected:
+  Options options_;
+  const Motion& motion_;
+  Noise noise_;
 };
 
 }  // namespace navcal::sim

@@ -101,9 +101,6 @@ bool DopplerPing::has_lock() const {
   return std::all_of(velocity_m_s.begin(), velocity_m_s.end(), [](const auto& one) { return one.has_value(); });
 }
 
-DopplerLog::DopplerLog(const Options& options, const Motion& motion)
-    : LineDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
-
 void DopplerLog::power_on(std::int64_t t_ns) {
   ticks_ = Ticks(t_ns, 1 / options_.rate_Hz, options_.clock_ppm);
   pings_ = 0;
@@ -165,7 +162,7 @@ std::array<std::optional<double>, 4> Pd0Doppler::velocities_m_s(const DopplerPin
     return beams;
   }
   if (!ping.has_lock()) return {};
-  const DopplerSolution solution = solved(ping, options().beam_angle_rad);
+  const DopplerSolution solution = solved(ping, options_.beam_angle_rad);
   Vector3 own = solution.body_m_s;
   if (sent_as_.axes == pd0::Axes::ship && sent_as_.uses_tilts) own = level(own, ping.state);
   if (sent_as_.axes == pd0::Axes::earth) own = north_east_down(own, ping.state);
@@ -177,7 +174,7 @@ std::vector<std::uint8_t> Pd0Doppler::encode(const DopplerPing& ping, std::int64
   pd0::BottomTrack bottom;
   bottom.velocity_m_s = velocities_m_s(ping);
   for (std::size_t i = 0; i < 4; ++i) {
-    if (ping.range_m[i]) bottom.range_m[i] = *ping.range_m[i] * std::cos(options().beam_angle_rad);
+    if (ping.range_m[i]) bottom.range_m[i] = *ping.range_m[i] * std::cos(options_.beam_angle_rad);
     bottom.percent_good[i] = bottom.velocity_m_s[i] ? 100 : 0;
   }
   if (!sent_as_.convex) {
@@ -212,14 +209,14 @@ std::vector<std::uint8_t> Pd6Doppler::encode(const DopplerPing& ping, std::int64
       earth{pd6::kBottomEarth, {}, {}, false};
   pd6::Distance distance{pd6::kBottomDistance, {}, 0, 0};
   if (ping.has_lock()) {
-    const DopplerSolution solution = solved(ping, options().beam_angle_rad);
+    const DopplerSolution solution = solved(ping, options_.beam_angle_rad);
     const auto sent = [](const Vector3& v) { return std::array<std::optional<double>, 3>{v[1], v[0], -v[2]}; };
     instrument.velocity_m_s = sent(solution.body_m_s);
     instrument.error_velocity_m_s = solution.error_m_s;
     ship.velocity_m_s = sent(level(solution.body_m_s, ping.state));
     earth.velocity_m_s = sent(north_east_down(solution.body_m_s, ping.state));
     instrument.good = ship.good = earth.good = true;
-    for (const auto& range_m : ping.range_m) distance.range_m += *range_m * std::cos(options().beam_angle_rad) / 4;
+    for (const auto& range_m : ping.range_m) distance.range_m += *range_m * std::cos(options_.beam_angle_rad) / 4;
   }
   for (const auto* velocity : {&instrument, &ship, &earth}) append(bytes, pd6::encode(*velocity));
   append(bytes, pd6::encode(distance));
@@ -230,14 +227,14 @@ std::vector<std::uint8_t> WaterLinkedDoppler::encode(const DopplerPing& ping, st
   water_linked::Velocity velocity;
   velocity.valid = ping.has_lock();
   velocity.altitude_m = -1;
-  const double beam_variance_m2_s2 = options().beam_noise_m_s * options().beam_noise_m_s;
-  const double sine = std::sin(options().beam_angle_rad), cosine = std::cos(options().beam_angle_rad);
+  const double beam_variance_m2_s2 = options_.beam_noise_m_s * options_.beam_noise_m_s;
+  const double sine = std::sin(options_.beam_angle_rad), cosine = std::cos(options_.beam_angle_rad);
   const double across_m2_s2 = beam_variance_m2_s2 / (2 * sine * sine);
   const double down_m2_s2 = beam_variance_m2_s2 / (4 * cosine * cosine);
   velocity.covariance_m2_s2 = std::array<double, 9>{across_m2_s2, 0, 0, 0, across_m2_s2, 0, 0, 0, down_m2_s2};
   velocity.figure_of_merit_m_s = std::sqrt(across_m2_s2);
   if (velocity.valid) {
-    velocity.velocity_m_s = solved(ping, options().beam_angle_rad).body_m_s;
+    velocity.velocity_m_s = solved(ping, options_.beam_angle_rad).body_m_s;
     // Along the instrument's axis: over a plane bottom the inverse ranges of opposite beams have this mean.
     double inverse_per_m = 0;
     for (const auto& range_m : ping.range_m) inverse_per_m += 1 / *range_m / 4;
@@ -245,7 +242,7 @@ std::vector<std::uint8_t> WaterLinkedDoppler::encode(const DopplerPing& ping, st
   }
   velocity.valid_at_us = ping.measured_ns / 1000;
   velocity.transmitted_at_us = sent_ns / 1000;
-  velocity.since_last_ms = 1000 / options().rate_Hz;
+  velocity.since_last_ms = 1000 / options_.rate_Hz;
   std::vector<std::uint8_t> bytes = water_linked::encode(velocity);
   for (std::size_t i = 0; i < 4; ++i) {
     append(bytes, water_linked::encode(water_linked::Transducer{static_cast<std::uint8_t>(i),

@@ -26,40 +26,37 @@ struct DopplerPing {
   [[nodiscard]] bool has_lock() const;  ///< all four beams
 };
 
+struct DopplerOptions {
+  SeaFloor floor;
+  double rate_Hz = 5;
+  double latency_s = 0.1;  ///< from the reflection at the bottom to the first byte
+  double beam_angle_rad = 0.5235987755982988;
+  double beam_noise_m_s = 0.003;
+  double scale_error = 0.002;  ///< velocities come out larger by this share
+  double range_noise_m = 0.02;
+  double range_m = 50, least_range_m = 0.2;  ///< along a beam
+  double lost = 0;                           ///< probability that a beam loses its echo
+  double clock_ppm = 0;
+  std::uint64_t seed = 1;
+  int baud = 115200;
+};
+
 /// What Doppler logs of any maker have in common: pings at the pace of their own clock, beams with noise and an
 /// error of scale, bottom lock within the range only. A derived class encodes the pings. It hears nothing.
-class DopplerLog : public LineDevice {
+class DopplerLog : public MeasuringDevice<DopplerOptions> {
  public:
-  struct Options {
-    SeaFloor floor;
-    double rate_Hz = 5;
-    double latency_s = 0.1;  ///< from the reflection at the bottom to the first byte
-    double beam_angle_rad = 0.5235987755982988;
-    double beam_noise_m_s = 0.003;
-    double scale_error = 0.002;  ///< velocities come out larger by this share
-    double range_noise_m = 0.02;
-    double range_m = 50, least_range_m = 0.2;  ///< along a beam
-    double lost = 0;                           ///< probability that a beam loses its echo
-    double clock_ppm = 0;
-    std::uint64_t seed = 1;
-    int baud = 115200;
-  };
-  DopplerLog(const Options& options, const Motion& motion);
+  using MeasuringDevice::MeasuringDevice;
 
   void power_on(std::int64_t t_ns) override;
 
  protected:
   /// All bytes of one ping, sent at `sent_ns`.
   [[nodiscard]] virtual std::vector<std::uint8_t> encode(const DopplerPing& ping, std::int64_t sent_ns) const = 0;
-  [[nodiscard]] const Options& options() const { return options_; }
 
  private:
   void act(std::int64_t now_ns, std::vector<Emission>& out) override;
   [[nodiscard]] DopplerPing measure(std::int64_t t_ns);
 
-  Options options_;
-  const Motion& motion_;
-  Noise noise_;
   std::uint32_t pings_ = 0;
 };
 

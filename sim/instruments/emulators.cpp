@@ -32,20 +32,20 @@ LineWriter line_at(std::string_view class_name, std::int64_t t_ns) {
   return line;
 }
 
+struct SenderOptions {
+  double velocity_noise_m_s = 0.005;
+  double depth_noise_m = 0.01;
+  double temperature_noise_C = 0.01;
+  std::uint64_t seed = 1;
+  int baud = 4'000'000;
+};
+
 /// A program that sends samples as lines (ICD section 13), each with its time of validity: a Doppler log with
 /// bottom lock and a pressure gauge five times a second, and a mission sensor of the water's temperature once a
 /// second.
-class SampleSender final : public LineDevice {
+class SampleSender final : public MeasuringDevice<SenderOptions> {
  public:
-  struct Options {
-    double velocity_noise_m_s = 0.005;
-    double depth_noise_m = 0.01;
-    double temperature_noise_C = 0.01;
-    std::uint64_t seed = 1;
-    int baud = 4'000'000;
-  };
-  SampleSender(const Options& options, const Motion& motion)
-      : LineDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
+  using MeasuringDevice::MeasuringDevice;
 
   void power_on(std::int64_t t_ns) override { ticks_ = Ticks(t_ns, 1 / kSender_Hz, 0); }
 
@@ -74,9 +74,6 @@ class SampleSender final : public LineDevice {
     ticks_.pass();
   }
 
-  Options options_;
-  const Motion& motion_;
-  Noise noise_;
   std::uint64_t sent_ = 0;
 };
 

@@ -31,9 +31,6 @@ bool has(const std::vector<std::uint8_t>& fields, std::uint8_t descriptor) {
 
 }  // namespace
 
-MipUnit::MipUnit(const Options& options, const Motion& motion)
-    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
-
 void MipUnit::power_on(std::int64_t t_ns) {
   powered_ns_ = t_ns;
   forget();

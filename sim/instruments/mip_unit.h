@@ -13,22 +13,23 @@
 
 namespace navcal::sim {
 
+struct MipOptions {
+  devices::ImuModel imu;
+  devices::CompassModel compass;
+  double clock_ppm = 0;  ///< positive: its seconds are too long
+  std::uint64_t seed = 1;
+  int baud = 115200;
+  bool newer_commands = true;     ///< those that name the data set
+  bool has_complementary = true;  ///< attitude in the sensor data
+  bool has_filter = true;
+};
+
 /// MicroStrain inertial sensor (ICD section 7): sensor data, filter data with true headings, reference time of its
 /// own clock, and the commands of the start-up dialogue. After power-on it streams nothing until it is configured.
 /// Noise and turn-on bias are those of the reference card and compass.
-class MipUnit final : public CommandedDevice<protocols::mip::Parser> {
+class MipUnit final : public MeasuringDevice<MipOptions, CommandedDevice<protocols::mip::Parser>> {
  public:
-  struct Options {
-    devices::ImuModel imu;
-    devices::CompassModel compass;
-    double clock_ppm = 0;  ///< positive: its seconds are too long
-    std::uint64_t seed = 1;
-    int baud = 115200;
-    bool newer_commands = true;     ///< those that name the data set
-    bool has_complementary = true;  ///< attitude in the sensor data
-    bool has_filter = true;
-  };
-  MipUnit(const Options& options, const Motion& motion);
+  using MeasuringDevice::MeasuringDevice;
 
   void power_on(std::int64_t t_ns) override;
 
@@ -58,9 +59,6 @@ class MipUnit final : public CommandedDevice<protocols::mip::Parser> {
   void put_sensor(const std::vector<std::uint8_t>& fields, const State& state, protocols::mip::Packet& packet);
   void put_filter(const std::vector<std::uint8_t>& fields, const State& state, protocols::mip::Packet& packet);
 
-  Options options_;
-  const Motion& motion_;
-  Noise noise_;
   std::array<Stream, 2> streams_;
   Vector3 bias_rad_s_{};
   bool idle_ = false;

@@ -22,9 +22,6 @@ constexpr double kSampleTurn_rad = 25 * base::kRadiansPerDegree;
 
 }  // namespace
 
-PniUnit::PniUnit(const Options& options, const Motion& motion)
-    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
-
 void PniUnit::power_on(std::int64_t t_ns) {
   forget();
   electronics_.power_on(t_ns, motion_);

@@ -12,20 +12,21 @@
 
 namespace navcal::sim {
 
+struct PniOptions {
+  devices::CompassModel compass;
+  double force_noise_m_s2 = base::reference::kForceNoise_m_s2;
+  double clock_ppm = 0;
+  std::uint64_t seed = 1;
+  int baud = 38400;
+  bool has_continuous = true;
+};
+
 /// PNI TRAX (ICD section 11): data on request and continuous, settings, and the user calibration with automatic
 /// sampling. Made from the documentation in use here, not from a device. After power-on it waits to be polled.
 /// Noise is that of the reference compass; the tilt has no lag, because it comes from accelerometers.
-class PniUnit final : public CommandedDevice<protocols::trax::Parser> {
+class PniUnit final : public MeasuringDevice<PniOptions, CommandedDevice<protocols::trax::Parser>> {
  public:
-  struct Options {
-    devices::CompassModel compass;
-    double force_noise_m_s2 = base::reference::kForceNoise_m_s2;
-    double clock_ppm = 0;
-    std::uint64_t seed = 1;
-    int baud = 38400;
-    bool has_continuous = true;
-  };
-  PniUnit(const Options& options, const Motion& motion);
+  using MeasuringDevice::MeasuringDevice;
 
   void power_on(std::int64_t t_ns) override;
 
@@ -45,9 +46,6 @@ class PniUnit final : public CommandedDevice<protocols::trax::Parser> {
   [[nodiscard]] Vector3 field_uT(const State& state);
   [[nodiscard]] std::vector<std::uint8_t> data(std::int64_t t_ns);
 
-  Options options_;
-  const Motion& motion_;
-  Noise noise_;
   Electronics electronics_;
   std::vector<std::uint8_t> components_;
   bool continuous_ = false, polled_ = true;

@@ -24,9 +24,6 @@ double absolute_pressure_Pa(const State& state) {
   return kBarometer_Pa + kSalt_kg_m3 * kGravity_m_s2 * state.position_m[2];
 }
 
-ParoscientificEmulator::ParoscientificEmulator(const Options& options, const Motion& motion)
-    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
-
 void ParoscientificEmulator::power_on(std::int64_t) {
   forget();
   continuous_ = false;
@@ -64,9 +61,6 @@ void ParoscientificEmulator::act(std::int64_t now_ns, std::vector<Emission>& out
   send(now_ns, paroscientific::encode_line(kToHost, value(now_ns)), out);
   if (!std::exchange(p3_ns_, std::nullopt)) ticks_.pass();
 }
-
-KellerEmulator::KellerEmulator(const Options& options, const Motion& motion)
-    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
 void KellerEmulator::power_on(std::int64_t) {
   forget();

@@ -22,15 +22,17 @@ struct PressureOptions {
 /// Absolute pressure at the vehicle's origin, without errors: a standard atmosphere above sea water of 1025 kg/m3.
 [[nodiscard]] double absolute_pressure_Pa(const State& state);
 
+struct ParoscientificOptions : PressureOptions {
+  int unit = 1;  ///< UN
+  double integration_s = 2.0 / 3;
+};
+
 /// Paroscientific gauge as it is delivered: silent until it is asked. UN, VR, P3 and P4 are obeyed. Any command
 /// ends the continuous values of P4.
-class ParoscientificEmulator final : public CommandedDevice<protocols::paroscientific::Parser> {
+class ParoscientificEmulator final
+    : public MeasuringDevice<ParoscientificOptions, CommandedDevice<protocols::paroscientific::Parser>> {
  public:
-  struct Options : PressureOptions {
-    int unit = 1;  ///< UN
-    double integration_s = 2.0 / 3;
-  };
-  ParoscientificEmulator(const Options& options, const Motion& motion);
+  using MeasuringDevice::MeasuringDevice;
 
   void power_on(std::int64_t t_ns) override;
 
@@ -40,22 +42,20 @@ class ParoscientificEmulator final : public CommandedDevice<protocols::paroscien
   void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   [[nodiscard]] std::string value(std::int64_t t_ns);
 
-  Options options_;
-  const Motion& motion_;
-  Noise noise_;
   bool continuous_ = false;            ///< P4
   std::optional<std::int64_t> p3_ns_;  ///< when the answer to P3 is due
 };
 
+struct KellerOptions : PressureOptions {
+  std::uint8_t address = 1;
+  bool echoes = false;  ///< the host's converter returns what the host says
+};
+
 /// Keller transmitter as it is delivered: it answers F48 and F73 at its own address and at 250, and refuses F73
 /// before F48.
-class KellerEmulator final : public CommandedDevice<protocols::keller::Parser> {
+class KellerEmulator final : public MeasuringDevice<KellerOptions, CommandedDevice<protocols::keller::Parser>> {
  public:
-  struct Options : PressureOptions {
-    std::uint8_t address = 1;
-    bool echoes = false;  ///< the host's converter returns what the host says
-  };
-  KellerEmulator(const Options& options, const Motion& motion);
+  using MeasuringDevice::MeasuringDevice;
 
   void power_on(std::int64_t t_ns) override;
 
@@ -65,9 +65,6 @@ class KellerEmulator final : public CommandedDevice<protocols::keller::Parser> {
   void obey(std::int64_t t_ns, const protocols::Frame& command) override;
   [[nodiscard]] Message reply_to(std::int64_t t_ns, const protocols::Frame& request);
 
-  Options options_;
-  const Motion& motion_;
-  Noise noise_;
   bool initialised_ = false, was_initialised_ = false;
 };
 

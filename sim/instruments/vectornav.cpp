@@ -23,9 +23,6 @@ constexpr std::uint8_t kInvalidParameter = 7, kInvalidRegister = 8, kInsufficien
 
 }  // namespace
 
-VectorNav::VectorNav(const Options& options, const Motion& motion)
-    : CommandedDevice(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
-
 void VectorNav::power_on(std::int64_t t_ns) {
   forget();
   electronics_.power_on(t_ns, motion_);

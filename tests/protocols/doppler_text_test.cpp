@@ -4,12 +4,40 @@
 
 #include <string>
 
+#include "protocols/crc16.h"
+#include "protocols/text_fields.h"
 #include "tests/protocols/doppler_text_samples.h"
 #include "tests/protocols/shared_capture.h"
 #include "tests/protocols/text.h"
 
 namespace navcal::protocols::test {
 namespace {
+
+struct PrintedContent {
+  double depth_m = 0;
+  std::optional<std::uint8_t> beams;
+  std::array<double, 2> tilt_deg{};
+  bool valid = false;
+  bool operator==(const PrintedContent&) const = default;
+};
+
+TEST(TextFields, WhatIsWrittenIsReadByTheSameFunction) {
+  using Content = PrintedContent;
+  constexpr auto kLayOut = [](auto& line, auto& content) {
+    line.number(content.depth_m, Print{1, 4, true});
+    line.number(content.beams);
+    line.number(content.tilt_deg, Print{2});
+    line.letter(content.valid, 'y', 'n');
+  };
+  const Content content{-12.5, {}, {0.25, -3}, true};
+  EXPECT_EQ(line_of("X", content, kLayOut), "X,-0012.5,,0.25,-3.00,y");
+  EXPECT_EQ(content_of<Content>(LineReader("-0012.5,,0.25,-3.00,y"), kLayOut), content);
+  EXPECT_EQ(content_of<Content>(LineReader("+1,4,0,0,n"), kLayOut), (Content{1, std::uint8_t{4}, {}, false}));
+  // A field too many or too few, a letter that is neither, what is no number, and one that does not fit.
+  for (const char* wrong : {"1,4,0,0,n,", "1,4,0,0", "1,4,0,0,N", ",4,0,0,n", "1,256,0,0,n", "1,4,0,0,n,5"})
+    EXPECT_FALSE(content_of<Content>(LineReader(wrong), kLayOut)) << wrong;
+  EXPECT_FALSE(content_of<Content>(LineReader("+1,4,0,0,n", decimal), kLayOut)) << "a plain decimal has no plus";
+}
 
 TEST(Pd6, LinesOfEachKind) {
   const auto attitude = pd6::decode_attitude(bytes_of(":SA, -2.31, +4.92,359.58\r\n"));
@@ -74,7 +102,7 @@ TEST(WaterLinked, LinesOfTheDocumentation) {
         "wrx,1075.51,0.000,0.000,0.000,2.707,-1.00,n,1*04\n"}) {
     EXPECT_EQ(all_at_once<water_linked::Scanner>(bytes_of(text)).frames.size(), 1U) << text;
   }
-  EXPECT_EQ(water_linked::crc8(bytes_of("123456789")), 0xF4);
+  EXPECT_EQ(crc8(bytes_of("123456789")), 0xF4);
   const auto velocity = water_linked::decode_velocity(
       bytes_of("wrz,0.120,-0.400,2.000,y,1.30,1.855,1e-07;0;1.4;0;1.2;0;0.2;0;1e+09,7,14,123.00,1*50\n"));
   ASSERT_TRUE(velocity);
