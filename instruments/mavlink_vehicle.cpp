@@ -173,8 +173,7 @@ class StartUpMavlink final : public StartUp {
   }
 
   std::vector<std::uint8_t> heartbeat() {
-    constexpr std::array<std::uint8_t, 9> kOnboardController{0, 0, 0, 0, 18, 8, 0, 4, 3};
-    return mavlink::encode(kHeartbeat, {*vehicle_, kOurComponent, sequence_++}, kOnboardController);
+    return mavlink::encode_heartbeat({*vehicle_, kOurComponent, sequence_++});
   }
   std::vector<std::uint8_t> interval(const Request& request) {
     std::array<std::uint8_t, 33> payload{};

@@ -63,12 +63,12 @@ std::variant<Key, std::string> Key::from_text(std::string_view text) {
     std::string bytes;
     for (std::size_t i = 0; i < text.size(); i += 2)
       bytes.push_back(static_cast<char>(value_of(text[i]) << 4 | value_of(text[i + 1])));
-    return Key(std::move(bytes));
+    return Key(std::move(bytes), true);
   }
   if (text.size() < kShortest)
     return fmt::format("the key has {} characters; it needs {} or more, or {} hexadecimal digits", text.size(),
                        kShortest, kDigits);
-  return Key(std::string(text));
+  return Key(std::string(text), false);
 }
 
 std::variant<Key, std::string> Key::from_file(const std::filesystem::path& file) {
@@ -85,6 +85,20 @@ std::variant<Key, std::string> Key::from_file(const std::filesystem::path& file)
   auto key = from_text(text);
   if (const auto* problem = std::get_if<std::string>(&key)) return file.string() + ": " + *problem;
   return key;
+}
+
+std::array<std::uint8_t, 32> Key::of_mavlink() const {
+  Digest digest{};
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes_.data());
+  if (is_digits_) {
+    std::copy_n(first, digest.size(), digest.begin());
+    return digest;
+  }
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, bytes_.size(), first);
+  sha256_digest(&context, digest.size(), digest.data());
+  return digest;
 }
 
 SessionKey Key::session(const Nonce& vehicle, const Nonce& host) const {

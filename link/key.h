@@ -39,14 +39,18 @@ class Key {
   /// Reads a file that nobody but its owner can read or write. Returns the key, or why not, with the file's name.
   [[nodiscard]] static std::variant<Key, std::string> from_file(const std::filesystem::path& file);
 
+  /// For MAVLink: the 32 bytes of 64 digits, or the SHA-256 of another text, as ground stations make it.
+  [[nodiscard]] std::array<std::uint8_t, 32> of_mavlink() const;
+
   /// For the frames of a session, from the random numbers of both ends: a frame of another session never fits.
   [[nodiscard]] SessionKey session(const Nonce& vehicle, const Nonce& host) const;
   /// For HELLO, which comes before there is a session.
   [[nodiscard]] SessionKey outside() const { return session({}, {}); }
 
  private:
-  explicit Key(std::string bytes) : bytes_(std::move(bytes)) {}
+  explicit Key(std::string bytes, bool is_digits) : bytes_(std::move(bytes)), is_digits_(is_digits) {}
   std::string bytes_;
+  bool is_digits_;
 };
 
 /// Eight bytes from the kernel. Throws std::runtime_error when it gives none.

@@ -315,11 +315,12 @@ std::string Port::listen() { return state_->address ? state_->listen() : "no add
 
 void Port::start() { asio::co_spawn(state_->timer.get_executor(), state_->run(state_), asio::detached); }
 
-void Port::send(protocols::Bytes bytes) {
+bool Port::send(protocols::Bytes bytes) {
   State& state = *state_;
-  if (!state.line || state.outgoing.size() + bytes.size() > kSendBytes) return;
+  if (!state.line || state.outgoing.size() + bytes.size() > kSendBytes) return false;
   state.outgoing.insert(state.outgoing.end(), bytes.begin(), bytes.end());
   if (!state.writing) state.write_soon();
+  return true;
 }
 
 std::optional<std::int64_t> Port::send_now(protocols::Bytes bytes) {

@@ -50,9 +50,9 @@ class Port {
   /// Listens from now on, before start(), for the device that connects. Empty, or why it cannot.
   [[nodiscard]] std::string listen();
   void start();
-  /// Queues bytes for sending, at most 4 KiB. Bytes for which there is no room are dropped silently as a whole,
-  /// as are all bytes while the port is away.
-  void send(protocols::Bytes bytes);
+  /// Queues bytes for sending, at most 4 KiB. Bytes for which there is no room are dropped as a whole, as are all
+  /// bytes while the port is away: then the answer is false.
+  bool send(protocols::Bytes bytes);
   /// Writes a whole line at once: nothing waits before it, and the driver has taken all of it when this
   /// returns. Returns the time at which the driver had it. nullopt when the port is away, other bytes still
   /// wait, or there is no room for the whole line (its beginning may then have been taken). on_sent() is called

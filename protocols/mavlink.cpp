@@ -2,6 +2,7 @@
 #include "protocols/mavlink.h"
 
 #include "protocols/crc16.h"
+#include "protocols/mavlink_signer.h"
 
 namespace navcal::protocols::mavlink {
 namespace {
@@ -120,13 +121,20 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
 std::vector<std::uint8_t> encode(std::uint32_t id, Sender sender, Bytes payload) {
   while (payload.size() > 1 && payload.back() == 0) payload = payload.first(payload.size() - 1);
   const auto length = static_cast<std::uint8_t>(payload.size());
-  std::vector<std::uint8_t> frame{0xFD, length, 0, 0, sender.sequence, sender.system, sender.component};
+  const std::uint8_t incompatible = sender.signer != nullptr ? 1 : 0;
+  std::vector<std::uint8_t> frame{0xFD, length, incompatible, 0, sender.sequence, sender.system, sender.component};
   append_le(frame, static_cast<std::uint16_t>(id));
   frame.push_back(static_cast<std::uint8_t>(id >> 16));
   const std::size_t head = frame.size();
   frame.insert(frame.end(), payload.begin(), payload.end());
   append_le(frame, sum_of(frame, head, length, *message_of(id)));
+  if (sender.signer != nullptr) sender.signer->sign(frame);
   return frame;
+}
+
+std::vector<std::uint8_t> encode_heartbeat(Sender sender) {
+  constexpr std::uint8_t kOnboardController = 18, kActive = 4, kVersion = 3;
+  return encode(0, sender, packed_le(0U, kOnboardController, kNoAutopilot, std::uint8_t{0}, kActive, kVersion));
 }
 
 Parameter parameter_of(const Message& parameter_value, bool is_bytewise) {

@@ -12,6 +12,7 @@
 #include "web/outlets/chrony.h"
 #include "web/outlets/daemon_metrics.h"
 #include "web/outlets/json_members.h"
+#include "web/outlets/mavlink.h"
 #include "web/outlets/mqtt_connection.h"
 
 namespace navcal::web {
@@ -157,6 +158,21 @@ void Metrics::append_outlets(Exposition& out) const {
                static_cast<double>(chrony_->samples));
     out.single("navcal_web_chrony_failed_samples_total", counter, "Samples that nobody took.",
                static_cast<double>(chrony_->not_sent));
+  }
+  if (mavlink_ != nullptr) {
+    const auto count = [&out](const char* name, const char* help, std::uint64_t value) {
+      out.single(name, counter, help, static_cast<double>(value));
+    };
+    out.single("navcal_web_mavlink_open", gauge, "1 while the line of MAVLink is open.",
+               mavlink_->open ? 1.0 : 0.0);
+    out.single("navcal_web_mavlink_position", gauge, "1 while a position goes out by MAVLink.",
+               mavlink_->has_position ? 1.0 : 0.0);
+    count("navcal_web_mavlink_sent_messages_total", "Messages that the line of MAVLink took.", mavlink_->sent);
+    count("navcal_web_mavlink_dropped_messages_total",
+          "Messages dropped, because the line of MAVLink was away or too slow.", mavlink_->dropped);
+    count("navcal_web_mavlink_received_messages_total", "Messages that came by MAVLink.", mavlink_->received);
+    count("navcal_web_mavlink_refused_messages_total", "Of those, messages without a good signature.",
+          mavlink_->refused);
   }
 }
 

@@ -38,6 +38,7 @@ class LatestParts {
 };
 
 struct ChronyCounters;
+struct MavlinkCounters;
 struct MqttCounters;
 
 /// State of navcald and of this program for Prometheus. While there is no connection to navcald, only
@@ -57,6 +58,7 @@ class Metrics final : public Subscriber {
 
   void watch(const MqttCounters& mqtt) { mqtt_ = &mqtt; }
   void watch(const ChronyCounters& chrony) { chrony_ = &chrony; }
+  void watch(const MavlinkCounters& mavlink) { mavlink_ = &mavlink; }
 
   /// The whole page in Prometheus' text format.
   [[nodiscard]] std::string page() const;
@@ -75,6 +77,7 @@ class Metrics final : public Subscriber {
   const LiveSource::Counters* source_ = nullptr;
   const MqttCounters* mqtt_ = nullptr;
   const ChronyCounters* chrony_ = nullptr;
+  const MavlinkCounters* mavlink_ = nullptr;
   LatestParts health_, calibration_;
   nlohmann::json time_, navigation_;
   std::map<std::string, nlohmann::json, std::less<>> batteries_;  ///< by device

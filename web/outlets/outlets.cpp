@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "web/outlets/chrony.h"
+#include "web/outlets/mavlink.h"
 #include "web/outlets/metrics.h"
 #include "web/outlets/mqtt.h"
 #include "web/outlets/signalk.h"
@@ -41,12 +42,17 @@ struct Outlets::Parts {
       chrony = std::make_unique<Chrony>(executor, options.chrony_socket, hub);
       metrics.watch(chrony->counters());
     }
+    if (!options.mavlink.address.empty()) {
+      mavlink = std::make_unique<Mavlink>(executor, options.mavlink, hub);
+      metrics.watch(mavlink->counters());
+    }
   }
 
   Metrics metrics;
   SignalK signalk;
   std::shared_ptr<Mqtt> mqtt;
   std::unique_ptr<Chrony> chrony;
+  std::unique_ptr<Mavlink> mavlink;
 };
 
 Outlets::Outlets(const boost::asio::any_io_executor& executor, const OutletOptions& options, Hub& hub, Site& site)
