@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <memory>
 #include <string_view>
+#include <variant>
 
 #include "base/printable.h"
 #include "config/load.h"
@@ -25,6 +26,7 @@
 #include "daemon/daemon.h"
 #include "daemon/motor_note.h"
 #include "daemon/start_error.h"
+#include "link/key.h"
 #include "share/manual.h"
 
 namespace {
@@ -153,6 +155,18 @@ Exit run(const navcal::config::Settings& settings, const std::filesystem::path& 
   return daemon.finish() ? kStopped : kShaftMayTurn;
 }
 
+/// Throws config::Error.
+void read_signing_keys(navcal::config::Settings& settings) {
+  using navcal::link::Key;
+  for (navcal::config::PortSettings& port : settings.ports) {
+    if (port.signing_key_file.empty()) continue;
+    const auto key = Key::from_file(port.signing_key_file);
+    if (const auto* const problem = std::get_if<std::string>(&key))
+      throw navcal::config::Error({"port." + port.name + ".signing_key_file: " + *problem});
+    port.signing_key = std::get<Key>(key).of_mavlink();
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -160,7 +174,8 @@ int main(int argc, char** argv) {
   Options options;
   if (const auto status = parse(argc, argv, options)) return *status;
   try {
-    const auto settings = navcal::config::load(options.config, options.overrides);
+    auto settings = navcal::config::load(options.config, options.overrides);
+    read_signing_keys(settings);
     if (options.check) {
       std::fputs(navcal::daemon::describe(settings).c_str(), stdout);
       return kStopped;
