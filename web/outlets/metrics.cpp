@@ -144,29 +144,25 @@ void Metrics::append_program(Exposition& out) const {
 }
 
 void Metrics::append_outlets(Exposition& out) const {
+  const auto count = [&out](const char* name, const char* help, std::uint64_t value) {
+    out.single(name, counter, help, static_cast<double>(value));
+  };
+  const auto flag = [&out](const char* name, const char* help, bool value) {
+    out.single(name, gauge, help, value ? 1.0 : 0.0);
+  };
   if (mqtt_ != nullptr) {
-    out.single("navcal_web_mqtt_connected", gauge, "1 while there is a connection to the MQTT broker.",
-               mqtt_->connected ? 1.0 : 0.0);
-    out.single("navcal_web_mqtt_published_messages_total", counter, "Messages that the MQTT broker got.",
-               static_cast<double>(mqtt_->published));
-    out.single("navcal_web_mqtt_dropped_messages_total", counter,
-               "Messages dropped, because there was no MQTT broker or it was too slow.",
-               static_cast<double>(mqtt_->dropped));
+    flag("navcal_web_mqtt_connected", "1 while there is a connection to the MQTT broker.", mqtt_->connected);
+    count("navcal_web_mqtt_published_messages_total", "Messages that the MQTT broker got.", mqtt_->published);
+    count("navcal_web_mqtt_dropped_messages_total",
+          "Messages dropped, because there was no MQTT broker or it was too slow.", mqtt_->dropped);
   }
   if (chrony_ != nullptr) {
-    out.single("navcal_web_chrony_samples_total", counter, "Samples that chronyd got.",
-               static_cast<double>(chrony_->samples));
-    out.single("navcal_web_chrony_failed_samples_total", counter, "Samples that nobody took.",
-               static_cast<double>(chrony_->not_sent));
+    count("navcal_web_chrony_samples_total", "Samples that chronyd got.", chrony_->samples);
+    count("navcal_web_chrony_failed_samples_total", "Samples that nobody took.", chrony_->not_sent);
   }
   if (mavlink_ != nullptr) {
-    const auto count = [&out](const char* name, const char* help, std::uint64_t value) {
-      out.single(name, counter, help, static_cast<double>(value));
-    };
-    out.single("navcal_web_mavlink_open", gauge, "1 while the line of MAVLink is open.",
-               mavlink_->open ? 1.0 : 0.0);
-    out.single("navcal_web_mavlink_position", gauge, "1 while a position goes out by MAVLink.",
-               mavlink_->has_position ? 1.0 : 0.0);
+    flag("navcal_web_mavlink_open", "1 while the line of MAVLink is open.", mavlink_->open);
+    flag("navcal_web_mavlink_position", "1 while a position goes out by MAVLink.", mavlink_->has_position);
     count("navcal_web_mavlink_sent_messages_total", "Messages that the line of MAVLink took.", mavlink_->sent);
     count("navcal_web_mavlink_dropped_messages_total",
           "Messages dropped, because the line of MAVLink was away or too slow.", mavlink_->dropped);
