@@ -87,6 +87,8 @@ class Hub {
     std::optional<std::int64_t> utc_ns;
     std::string message;
   };
+  template <class Call>
+  void tell(Call call);
   void tell_demand();
 
   std::map<Subscriber*, Demand> subscribers_;

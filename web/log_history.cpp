@@ -17,6 +17,7 @@
 
 #include "ports/no_throw.h"
 #include "record/json/base64.h"
+#include "record/json/json_members.h"
 #include "record/log/message_crc.h"
 #include "web/message_fields.h"
 
@@ -197,8 +198,7 @@ asio::awaitable<LogHistory::Text> LogHistory::read() {
   }
   std::reverse(pieces.begin(), pieces.end());
   co_return std::make_shared<const std::string>(
-      fmt::format(R"({{"problem":{},"records":[{}]}})",
-                  problem.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), fmt::join(pieces, ",")));
+      fmt::format(R"({{"problem":{},"records":[{}]}})", record::json_text(problem), fmt::join(pieces, ",")));
 }
 
 void add_history(Site& site, LogHistory& history) {

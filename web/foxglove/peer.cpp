@@ -276,14 +276,12 @@ WebSocketEndpoint endpoint(Hub& hub, std::string version, Clock clock) {
   std::string session = fmt::format("{:08x}{:08x}", random(), random());
   const auto shared =
       std::make_shared<Shared>(Shared{hub, std::move(version), std::move(session), std::move(clock), {}});
-  WebSocketEndpoint foxglove;
-  foxglove.path = "/";
-  foxglove.subprotocols = {"foxglove.websocket.v1", "foxglove.sdk.v1"};
-  foxglove.origins = {"https://app.foxglove.dev"};  // Foxglove itself
-  foxglove.make_peer = [shared](PeerLink& link, std::string_view) -> std::unique_ptr<Peer> {
-    return std::make_unique<Viewer>(shared, link);
-  };
-  return foxglove;
+  return {.path = "/",
+          .subprotocols = {"foxglove.websocket.v1", "foxglove.sdk.v1"},
+          .origins = {"https://app.foxglove.dev"},  // Foxglove itself
+          .make_peer = [shared](PeerLink& link, std::string_view) -> std::unique_ptr<Peer> {
+            return std::make_unique<Viewer>(shared, link);
+          }};
 }
 
 }  // namespace navcal::web::foxglove

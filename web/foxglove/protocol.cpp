@@ -5,17 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "record/json/json_members.h"
+
 namespace navcal::web::foxglove {
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
+using record::json_text;
 
 constexpr char kMessageData = 1;
 constexpr char kTime = 2;
-
-std::string dumped(const OrderedJson& json) {
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-}
 
 template <class Integer>
 void append_little_endian(std::string& out, Integer value) {
@@ -76,17 +74,17 @@ void read_unsubscribe(ClientMessage& message, const nlohmann::json& json) {
 }  // namespace
 
 std::string server_info(std::string_view name, std::string_view version, std::string_view session) {
-  return dumped({{"op", "serverInfo"},
-                 {"name", name},
-                 {"capabilities", {"time"}},
-                 {"metadata", {{"version", version}}},
-                 {"sessionId", session}});
+  return json_text({{"op", "serverInfo"},
+                    {"name", name},
+                    {"capabilities", {"time"}},
+                    {"metadata", {{"version", version}}},
+                    {"sessionId", session}});
 }
 
 std::string status(StatusLevel level, std::string_view message, std::string_view id) {
-  OrderedJson json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}};
+  nlohmann::ordered_json json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}};
   if (!id.empty()) json["id"] = id;
-  return dumped(json);
+  return json_text(json);
 }
 
 std::string advertise(const std::vector<std::string_view>& channels) {
@@ -99,17 +97,17 @@ std::string advertise(const std::vector<std::string_view>& channels) {
 }
 
 std::string unadvertise(const std::vector<std::uint32_t>& channels) {
-  return dumped({{"op", "unadvertise"}, {"channelIds", channels}});
+  return json_text({{"op", "unadvertise"}, {"channelIds", channels}});
 }
 
 std::string channel(std::uint32_t id, std::string_view topic, std::string_view schema_name,
                     std::string_view schema) {
-  return dumped({{"id", id},
-                 {"topic", topic},
-                 {"encoding", "json"},
-                 {"schemaName", schema_name},
-                 {"schema", schema},
-                 {"schemaEncoding", "jsonschema"}});
+  return json_text({{"id", id},
+                    {"topic", topic},
+                    {"encoding", "json"},
+                    {"schemaName", schema_name},
+                    {"schema", schema},
+                    {"schemaEncoding", "jsonschema"}});
 }
 
 std::string message_data(std::uint32_t subscription, std::uint64_t time_ns, std::string_view payload) {

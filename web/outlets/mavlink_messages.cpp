@@ -23,10 +23,6 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int kLeastEstimates = 9;  // a second: ten, one of which may come a little late
 constexpr std::int64_t kGpsBegin_s = 315'964'800, kGpsMinusUtc_s = 18, kWeek_s = 604'800;
 
-Pacer::Clock::duration interval_of(double rate_Hz) {
-  return std::chrono::duration_cast<Pacer::Clock::duration>(std::chrono::duration<double>(1 / rate_Hz));
-}
-
 template <class... Numbers>
 void append_floats(std::vector<std::uint8_t>& payload, Numbers... numbers) {
   (append_le(payload, static_cast<float>(numbers)), ...);
@@ -36,10 +32,8 @@ double of(const json& nav, const char* key) { return number_in(nav, key).value_o
 
 /// North, east, down.
 std::optional<Eigen::Vector3d> velocity_of(const json& nav) {
-  const json& v = member_of(nav, "velocity_m_s");
-  if (!v.is_array() || v.size() != 3 || !v[0].is_number() || !v[1].is_number() || !v[2].is_number())
-    return std::nullopt;
-  return Eigen::Vector3d(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+  const auto v = vector_in(nav, "velocity_m_s");
+  return v ? std::optional(Eigen::Vector3d(v->data())) : std::nullopt;
 }
 
 }  // namespace
@@ -56,12 +50,12 @@ void MavlinkMessages::take(const Record& record, Pacer::Clock::time_point now) {
     const std::string source = text_in(member_of(message, "earth_field"), "declination_source");
     if (!source.empty()) knows_north_ = source != "none";
   } else if (record.topic == "/event" && options_.has_texts) {
-    const std::string severity = text_in(message, "severity"), port = text_in(message, "port");
+    const std::string severity = text_in(message, "severity");
     send_text(severity == "alarm"     ? 2
               : severity == "error"   ? 3
               : severity == "warning" ? 4
                                       : 6,
-              (port.empty() ? port : port + ": ") + text_in(message, "message"));
+              event_text(message));
   }
 }
 
@@ -81,9 +75,10 @@ void MavlinkMessages::take_estimate(const json& nav, std::optional<std::int64_t>
   else if (options_.odometry_Hz > 0 && (lacks("depth_m") || !velocity_of(nav)))
     missing_ = "depth or velocity is not known";
   if (!utc_ns) return;
-  if (options_.values_Hz > 0 && mapping_ && values_.pass(now, interval_of(options_.values_Hz)))
+  if (options_.values_Hz > 0 && mapping_ && values_.pass(now, Pacer::interval_of(options_.values_Hz)))
     send_values(nav, *utc_ns);
-  if (!lacks("lat") && !lacks("lon") && options_.gps_Hz > 0 && gps_.pass(now, interval_of(options_.gps_Hz))) {
+  if (!lacks("lat") && !lacks("lon") && options_.gps_Hz > 0 &&
+      gps_.pass(now, Pacer::interval_of(options_.gps_Hz))) {
     send_gps(nav, *utc_ns);
     if (options_.odometry_Hz == 0) ++sent_;
   }
@@ -92,7 +87,7 @@ void MavlinkMessages::take_estimate(const json& nav, std::optional<std::int64_t>
   if (!lacks("outage_error_m") || calibration != calibration_) ++resets_;
   calibration_ = calibration;
   if (options_.odometry_Hz == 0 || !missing_.empty() || !is_often_) return;
-  if (!odometry_.pass(now, interval_of(options_.odometry_Hz))) return;
+  if (!odometry_.pass(now, Pacer::interval_of(options_.odometry_Hz))) return;
   if (!problem_.empty() && sent_ == 0) ++resets_;
   send_odometry(nav, *utc_ns);
   ++sent_;
