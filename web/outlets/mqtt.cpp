@@ -5,50 +5,38 @@
 #include <stdexcept>
 #include <utility>
 
+#include "web/access.h"
+
 namespace navcal::web {
-namespace asio = boost::asio;
 namespace {
 
 using Quality = MqttConnection::Quality;
 
-/// How often states that wait for their time are looked at.
-constexpr auto kStateTick = std::chrono::milliseconds(100);
 /// More topics than a vehicle has.
 constexpr std::size_t kMaxMqttTopics = 1024;
 
 }  // namespace
 
-Mqtt::Mqtt(const asio::any_io_executor& executor, const MqttOptions& options, Hub& hub)
-    : options_(options), hub_(&hub), timer_(executor),
-      interval_(
-          std::chrono::duration_cast<Pacer::Clock::duration>(std::chrono::duration<double>(1 / options.rate_Hz))) {
+Mqtt::Mqtt(const boost::asio::any_io_executor& executor, const MqttOptions& options, Hub& hub)
+    : options_(options), hub_(hub), interval_(Pacer::interval_of(options.rate_Hz)) {
   const auto broker = mqtt_broker(options.broker);
   if (!broker) throw std::runtime_error("--mqtt: wants HOST or HOST:PORT, not \"" + options.broker + "\"");
   const MqttLogin login = options.login_file.empty() ? MqttLogin() : read_mqtt_login(options.login_file);
   connection_ = std::make_shared<MqttConnection>(executor, *broker, login, options.prefix + "/online");
-}
-
-void Mqtt::start() {
-  hub_->add(*this, {true, {}, options_.rate_Hz});
-  connection_->start([self = weak_from_this()] {
-    if (const auto alive = self.lock()) alive->greet();
-  });
-  tick();
+  hub_.add(*this, {true, {}, options_.rate_Hz});
+  connection_->start([this] { greet(); }, [this] { send_due(); });
 }
 
 void Mqtt::stop() {
-  if (hub_ != nullptr) hub_->remove(*this);
-  hub_ = nullptr;
+  hub_.remove(*this);
   connection_->stop();
-  timer_.cancel();
 }
 
 /// The broker may have forgotten everything: it gets the newest of all states again.
 void Mqtt::greet() {
   connection_->publish(options_.prefix + "/online", "1", Quality::at_least_once, true);
   states_.clear();
-  if (hub_ == nullptr) return;
-  tell_link(hub_->link().connected);
+  tell_link(hub_.link().connected);
   struct States final : Subscriber {
     explicit States(Mqtt& mqtt) : mqtt_(mqtt) {}
     void on_record(const Record& record) override {
@@ -57,7 +45,7 @@ void Mqtt::greet() {
     }
     Mqtt& mqtt_;
   } states(*this);
-  hub_->repeat_newest(states);
+  hub_.repeat_newest(states);
 }
 
 void Mqtt::on_record(const Record& record) {
@@ -90,31 +78,19 @@ void Mqtt::tell_link(bool is_up) {
 
 /// A state that came too early is sent when its time has come, so that the broker has the newest also of a device
 /// that then fell silent.
-void Mqtt::tick() {
+void Mqtt::send_due() {
   const auto now = Pacer::Clock::now();
   for (auto& [topic, state] : states_) {
     if (state.waiting.empty() || !state.pacer.pass(now, interval_)) continue;
     connection_->publish(topic, std::exchange(state.waiting, {}), Quality::at_most_once, true);
   }
-  timer_.expires_after(kStateTick);
-  timer_.async_wait([self = weak_from_this()](boost::system::error_code error) {
-    const auto alive = self.lock();
-    if (!error && alive) alive->tick();
-  });
 }
 
 MqttLogin read_mqtt_login(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  const auto failed = [&](const std::string& why) { return std::runtime_error(file.string() + ": " + why); };
-  if (error || !std::filesystem::is_regular_file(status)) throw failed("not a file");
-  using std::filesystem::perms;
-  if ((status.permissions() & (perms::others_read | perms::others_write)) != perms::none)
-    throw failed("everybody may read or write it; `chmod o-rw` keeps the password secret");
-  std::ifstream in(file);
+  std::ifstream in = open_secret(file);
   MqttLogin login;
   if (!std::getline(in, login.user) || !std::getline(in, login.password) || login.user.empty())
-    throw failed("wants the user in the first line and the password in the second");
+    throw std::runtime_error(file.string() + ": wants the user in the first line and the password in the second");
   return login;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -17,12 +16,14 @@ namespace navcal::web {
 
 /// Publishes the records to a broker (docs/wires.md): events at once, of states the newest, at a limited rate and
 /// retained.
-class Mqtt final : public Subscriber, public std::enable_shared_from_this<Mqtt> {
+class Mqtt final : public Subscriber {
  public:
   /// Throws std::runtime_error, which says what to do.
   Mqtt(const boost::asio::any_io_executor& executor, const MqttOptions& options, Hub& hub);
+  ~Mqtt() override { stop(); }
+  Mqtt(const Mqtt&) = delete;
+  Mqtt& operator=(const Mqtt&) = delete;
 
-  void start();
   void stop();
   [[nodiscard]] const MqttCounters& counters() const { return connection_->counters(); }
 
@@ -35,13 +36,12 @@ class Mqtt final : public Subscriber, public std::enable_shared_from_this<Mqtt> 
     std::string waiting;  ///< the newest, while its time has not come; empty otherwise
   };
   void greet();
-  void tick();
+  void send_due();
   void tell_link(bool is_up);
 
   MqttOptions options_;
-  Hub* hub_;
+  Hub& hub_;
   std::shared_ptr<MqttConnection> connection_;
-  boost::asio::steady_timer timer_;
   std::map<std::string, State, std::less<>> states_;  ///< by topic
   Pacer::Clock::duration interval_;
 };

@@ -2,7 +2,6 @@
 #include "web/outlets/mqtt_connection.h"
 
 #include <dlfcn.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
@@ -14,45 +13,13 @@
 #include "ports/no_throw.h"
 
 namespace navcal::web {
-namespace {
 
-template <class Function>
-void find_function(void* library, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(::dlsym(library, name));
-  if (function == nullptr) throw std::runtime_error(std::string("--mqtt: libmosquitto has no ") + name);
-}
-
-MosquittoLibrary load_mosquitto() {
-  void* library = ::dlopen("libmosquitto.so.1", RTLD_NOW | RTLD_LOCAL);
+MosquittoFunction mosquitto_function(const char* name) {
+  static void* const library = ::dlopen("libmosquitto.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw std::runtime_error("--mqtt needs libmosquitto1 (apt install libmosquitto1)");
-  MosquittoLibrary found;
-  find_function(library, "mosquitto_new", found.create);
-  find_function(library, "mosquitto_destroy", found.destroy);
-  find_function(library, "mosquitto_will_set", found.will_set);
-  find_function(library, "mosquitto_username_pw_set", found.login_set);
-  find_function(library, "mosquitto_connect_callback_set", found.on_connect);
-  find_function(library, "mosquitto_publish_callback_set", found.on_publish);
-  find_function(library, "mosquitto_connect_async", found.connect);
-  find_function(library, "mosquitto_disconnect", found.disconnect);
-  find_function(library, "mosquitto_publish", found.publish);
-  find_function(library, "mosquitto_loop_read", found.loop_read);
-  find_function(library, "mosquitto_loop_write", found.loop_write);
-  find_function(library, "mosquitto_loop_misc", found.loop_misc);
-  find_function(library, "mosquitto_socket", found.socket);
-  find_function(library, "mosquitto_want_write", found.want_write);
-  find_function(library, "mosquitto_strerror", found.text_of_error);
-  find_function(library, "mosquitto_connack_string", found.text_of_refusal);
-  decltype(&mosquitto_lib_init) begin = nullptr;
-  find_function(library, "mosquitto_lib_init", begin);
-  begin();
-  return found;
-}
-
-}  // namespace
-
-const MosquittoLibrary& MosquittoLibrary::instance() {
-  static const MosquittoLibrary kLibrary = load_mosquitto();
-  return kLibrary;
+  void* const found = ::dlsym(library, (std::string("mosquitto_") + name).c_str());
+  if (found == nullptr) throw std::runtime_error(std::string("--mqtt: libmosquitto has no mosquitto_") + name);
+  return {found};
 }
 
 namespace asio = boost::asio;
@@ -60,20 +27,18 @@ using ports::kNoThrow;
 
 namespace {
 
-using Socket = std::shared_ptr<asio::posix::stream_descriptor>;
-
 constexpr auto kMqttRetry = std::chrono::seconds(1);
-constexpr auto kMqttTick = std::chrono::seconds(1);
+constexpr auto kMqttTick = std::chrono::milliseconds(100);
 /// A broker that says nothing for one and a half times this is gone, and so is this program for the broker.
 constexpr int kKeepAlive_s = 10;
-constexpr int kMaxPackets = 64;
 
 }  // namespace
 
 MqttConnection::MqttConnection(const asio::any_io_executor& executor, MqttBroker broker, MqttLogin login,
                                std::string will)
-    : library_(MosquittoLibrary::instance()), broker_(std::move(broker)), will_(std::move(will)),
-      client_(library_.create(nullptr, true, this)), timer_(executor) {
+    : broker_(std::move(broker)), will_(std::move(will)), timer_(executor) {
+  static const int kBegun = decltype(&mosquitto_lib_init)(mosquitto_function("lib_init"))();
+  client_ = kBegun == MOSQ_ERR_SUCCESS ? library_.create(nullptr, true, this) : nullptr;
   if (client_ == nullptr) throw std::runtime_error("--mqtt: no memory");
   library_.will_set(client_, will_.c_str(), 1, "0", 1, true);
   if (!login.user.empty()) library_.login_set(client_, login.user.c_str(), login.password.c_str());
@@ -86,8 +51,9 @@ MqttConnection::MqttConnection(const asio::any_io_executor& executor, MqttBroker
 
 MqttConnection::~MqttConnection() { library_.destroy(client_); }
 
-void MqttConnection::start(std::function<void()> on_connected) {
+void MqttConnection::start(std::function<void()> on_connected, std::function<void()> on_tick) {
   on_connected_ = std::move(on_connected);
+  on_tick_ = std::move(on_tick);
   asio::co_spawn(
       timer_.get_executor(), [self = shared_from_this()] { return self->run(); }, asio::detached);
 }
@@ -100,20 +66,13 @@ void MqttConnection::stop() {
     library_.disconnect(client_);
   }
   stopped_ = true;
-  on_connected_ = nullptr;
-  ended("");
   timer_.cancel();
 }
 
 asio::awaitable<void> MqttConnection::run() {
   while (!stopped_) {
-    std::string problem = co_await connect();
+    const std::string problem = co_await serve();
     if (stopped_) co_return;
-    if (problem.empty()) {
-      co_await keep_alive();
-      if (stopped_) co_return;
-      problem = problem_;
-    }
     if (problem != told_problem_)
       std::fprintf(stderr, "navcal-web: MQTT broker %s: %s\n", broker_.host.c_str(), problem.c_str());
     told_problem_ = problem;
@@ -122,64 +81,25 @@ asio::awaitable<void> MqttConnection::run() {
   }
 }
 
-asio::awaitable<std::string> MqttConnection::connect() {
+asio::awaitable<std::string> MqttConnection::serve() {
   asio::ip::tcp::resolver resolver(timer_.get_executor());
   const auto [unknown, endpoints] = co_await resolver.async_resolve(broker_.host, broker_.port, kNoThrow);
   if (unknown) co_return unknown.message();
-  if (stopped_) co_return std::string();
   const auto endpoint = endpoints.begin()->endpoint();
   // An address and no name: libmosquitto would wait for the name server.
   const std::string address = endpoint.address().to_string();
-  const int result = library_.connect(client_, address.c_str(), endpoint.port(), kKeepAlive_s);
-  if (result != MOSQ_ERR_SUCCESS) co_return std::string(library_.text_of_error(result));
-  // A copy, because libmosquitto closes its own whenever it likes.
-  const int copy = ::dup(library_.socket(client_));
-  if (copy < 0) co_return std::string("no more descriptors");
-  problem_.clear();
-  socket_ = std::make_shared<asio::posix::stream_descriptor>(timer_.get_executor(), copy);
-  asio::co_spawn(
-      timer_.get_executor(), [self = shared_from_this(), socket = socket_] { return self->read(socket); },
-      asio::detached);
-  write_soon();
-  co_return std::string();
-}
-
-/// Until the connection ends.
-asio::awaitable<void> MqttConnection::keep_alive() {
-  while (socket_) {
+  refusal_.clear();
+  int result = library_.connect(client_, address.c_str(), endpoint.port(), kKeepAlive_s);
+  while (result == MOSQ_ERR_SUCCESS && !stopped_) {
     timer_.expires_after(kMqttTick);
     co_await timer_.async_wait(kNoThrow);
-    if (!socket_) co_return;
-    check(library_.loop_misc(client_));
-    write_soon();
+    if (stopped_) co_return std::string();
+    result = library_.loop(client_, 0, 1);
+    if (std::exchange(is_greeting_due_, false)) on_connected_();
+    on_tick_();
   }
-}
-
-asio::awaitable<void> MqttConnection::read(Socket socket) {
-  while (socket == socket_) {
-    const auto [error] = co_await socket->async_wait(asio::posix::stream_descriptor::wait_read, kNoThrow);
-    if (error || socket != socket_) co_return;
-    check(library_.loop_read(client_, kMaxPackets));
-    if (std::exchange(is_greeting_due_, false) && on_connected_) on_connected_();
-    write_soon();
-  }
-}
-
-void MqttConnection::write_soon() {
-  if (!socket_ || is_writing_ || !library_.want_write(client_)) return;
-  is_writing_ = true;
-  asio::co_spawn(
-      timer_.get_executor(), [self = shared_from_this(), socket = socket_] { return self->write(socket); },
-      asio::detached);
-}
-
-asio::awaitable<void> MqttConnection::write(Socket socket) {
-  while (socket == socket_ && library_.want_write(client_)) {
-    const auto [error] = co_await socket->async_wait(asio::posix::stream_descriptor::wait_write, kNoThrow);
-    if (error || socket != socket_) co_return;
-    check(library_.loop_write(client_, kMaxPackets));
-  }
-  if (socket == socket_) is_writing_ = false;
+  ended();
+  co_return refusal_.empty() ? library_.text_of_error(result) : refusal_;
 }
 
 bool MqttConnection::publish(const std::string& topic, std::string_view message, Quality quality,
@@ -201,19 +121,12 @@ bool MqttConnection::publish(const std::string& topic, std::string_view message,
     waiting_[id] = {bytes, is_lossy};
     waiting_bytes_ += bytes;
   }
-  write_soon();
   return was_taken;
-}
-
-void MqttConnection::check(int result) {
-  if (result == MOSQ_ERR_SUCCESS || !socket_) return;
-  if (problem_.empty()) problem_ = library_.text_of_error(result);
-  ended(problem_);
 }
 
 void MqttConnection::accepted(int code) {
   if (code != 0) {
-    problem_ = library_.text_of_refusal(code);
+    refusal_ = library_.text_of_refusal(code);
     return;
   }
   counters_.connected = true;
@@ -233,16 +146,8 @@ void MqttConnection::done(int message_id) {
   waiting_.erase(found);
 }
 
-void MqttConnection::ended(const std::string& why) {
-  problem_ = why;
+void MqttConnection::ended() {
   counters_.connected = false;
-  is_writing_ = false;
-  is_greeting_due_ = false;
-  if (socket_) {
-    boost::system::error_code ignored;
-    socket_->close(ignored);
-    socket_.reset();
-  }
   for (auto one = waiting_.begin(); one != waiting_.end();) {
     if (!one->second.is_lost_with_connection) {
       ++one;
@@ -252,7 +157,6 @@ void MqttConnection::ended(const std::string& why) {
     ++counters_.dropped;
     one = waiting_.erase(one);
   }
-  timer_.cancel();
 }
 
 }  // namespace navcal::web

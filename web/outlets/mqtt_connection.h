@@ -5,7 +5,6 @@
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/awaitable.hpp>
-#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <cstdint>
 #include <functional>
@@ -19,28 +18,32 @@
 
 namespace navcal::web {
 
+struct MosquittoFunction {
+  void* address;
+  template <class Function>
+  operator Function*() const {  // NOLINT(google-explicit-constructor): of the type that mosquitto.h gives it
+    return reinterpret_cast<Function*>(address);
+  }
+};
+/// mosquitto_NAME. Loads libmosquitto; throws std::runtime_error, which says what to install, when it is not
+/// there.
+[[nodiscard]] MosquittoFunction mosquitto_function(const char* name);
+
 /// The functions of libmosquitto that are in use. The library is loaded only when they are: with it come OpenSSL's
 /// libraries, which cost a server without MQTT memory for nothing.
 struct MosquittoLibrary {
-  decltype(&mosquitto_new) create = nullptr;
-  decltype(&mosquitto_destroy) destroy = nullptr;
-  decltype(&mosquitto_will_set) will_set = nullptr;
-  decltype(&mosquitto_username_pw_set) login_set = nullptr;
-  decltype(&mosquitto_connect_callback_set) on_connect = nullptr;
-  decltype(&mosquitto_publish_callback_set) on_publish = nullptr;
-  decltype(&mosquitto_connect_async) connect = nullptr;
-  decltype(&mosquitto_disconnect) disconnect = nullptr;
-  decltype(&mosquitto_publish) publish = nullptr;
-  decltype(&mosquitto_loop_read) loop_read = nullptr;
-  decltype(&mosquitto_loop_write) loop_write = nullptr;
-  decltype(&mosquitto_loop_misc) loop_misc = nullptr;
-  decltype(&mosquitto_socket) socket = nullptr;
-  decltype(&mosquitto_want_write) want_write = nullptr;
-  decltype(&mosquitto_strerror) text_of_error = nullptr;
-  decltype(&mosquitto_connack_string) text_of_refusal = nullptr;
-
-  /// Loads the library once. Throws std::runtime_error, which says what to install, when it is not there.
-  [[nodiscard]] static const MosquittoLibrary& instance();
+  decltype(&mosquitto_new) create = mosquitto_function("new");
+  decltype(&mosquitto_destroy) destroy = mosquitto_function("destroy");
+  decltype(&mosquitto_will_set) will_set = mosquitto_function("will_set");
+  decltype(&mosquitto_username_pw_set) login_set = mosquitto_function("username_pw_set");
+  decltype(&mosquitto_connect_callback_set) on_connect = mosquitto_function("connect_callback_set");
+  decltype(&mosquitto_publish_callback_set) on_publish = mosquitto_function("publish_callback_set");
+  decltype(&mosquitto_connect_async) connect = mosquitto_function("connect_async");
+  decltype(&mosquitto_disconnect) disconnect = mosquitto_function("disconnect");
+  decltype(&mosquitto_publish) publish = mosquitto_function("publish");
+  decltype(&mosquitto_loop) loop = mosquitto_function("loop");
+  decltype(&mosquitto_strerror) text_of_error = mosquitto_function("strerror");
+  decltype(&mosquitto_connack_string) text_of_refusal = mosquitto_function("connack_string");
 };
 
 struct MqttLogin {
@@ -53,8 +56,9 @@ struct MqttCounters {
   std::uint64_t dropped = 0;    ///< because there was no broker, or because it was too slow
 };
 
-/// One connection to a broker, which is made again when it ends. libmosquitto's socket is driven by the loop of
-/// this program: no thread, and nothing waits. What the broker does not take is kept up to a bound, then dropped.
+/// One connection to a broker, which is made again when it ends. libmosquitto writes a message when it gets it,
+/// and ten times a second what was left, and reads the answers: no thread, and nothing waits. What the broker does
+/// not take is kept up to a bound, then dropped.
 class MqttConnection : public std::enable_shared_from_this<MqttConnection> {
  public:
   enum class Quality : int { at_most_once = 0, at_least_once = 1 };
@@ -68,8 +72,9 @@ class MqttConnection : public std::enable_shared_from_this<MqttConnection> {
   MqttConnection(const MqttConnection&) = delete;
   MqttConnection& operator=(const MqttConnection&) = delete;
 
-  /// `on_connected` is called each time that the broker has accepted.
-  void start(std::function<void()> on_connected);
+  /// `on_connected` is called each time that the broker has accepted, `on_tick` ten times a second while there is
+  /// a connection; neither after stop().
+  void start(std::function<void()> on_connected, std::function<void()> on_tick);
   void stop();
   /// False when it was dropped. At least once: also waits for a broker that is away.
   bool publish(const std::string& topic, std::string_view message, Quality quality, bool is_retained);
@@ -77,24 +82,18 @@ class MqttConnection : public std::enable_shared_from_this<MqttConnection> {
 
  private:
   boost::asio::awaitable<void> run();
-  /// Empty when libmosquitto has a socket, otherwise the reason in words.
-  boost::asio::awaitable<std::string> connect();
-  boost::asio::awaitable<void> read(std::shared_ptr<boost::asio::posix::stream_descriptor> socket);
-  boost::asio::awaitable<void> write(std::shared_ptr<boost::asio::posix::stream_descriptor> socket);
-  boost::asio::awaitable<void> keep_alive();
-  void write_soon();
-  void check(int result);
+  /// Until the connection has ended; the reason in words.
+  boost::asio::awaitable<std::string> serve();
   void accepted(int code);
   void done(int message_id);
-  void ended(const std::string& why);
+  void ended();
 
-  const MosquittoLibrary& library_;
+  MosquittoLibrary library_;
   MqttBroker broker_;
   std::string will_;
-  mosquitto* client_;
+  mosquitto* client_ = nullptr;
   boost::asio::steady_timer timer_;
-  std::shared_ptr<boost::asio::posix::stream_descriptor> socket_;  ///< a copy of libmosquitto's
-  std::function<void()> on_connected_;
+  std::function<void()> on_connected_, on_tick_;
   struct Waiting {
     std::size_t bytes;
     bool is_lost_with_connection;
@@ -102,10 +101,8 @@ class MqttConnection : public std::enable_shared_from_this<MqttConnection> {
   std::map<int, Waiting> waiting_;  ///< by number of the message
   std::size_t waiting_bytes_ = 0;
   std::vector<int> done_at_once_;  ///< messages that were written while they were handed over
-  std::string problem_;
-  std::string told_problem_;
+  std::string refusal_, told_problem_;
   MqttCounters counters_;
-  bool is_writing_ = false;
   bool is_greeting_due_ = false;
   bool stopped_ = false;
 };

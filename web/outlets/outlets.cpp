@@ -23,19 +23,12 @@ std::string blueos_service(std::string_view version) {
   return service.dump();
 }
 
-Handler blueos_handler(std::string_view version) {
-  return [answer = blueos_service(version)](const Request&) -> boost::asio::awaitable<Response> {
-    co_return respond_json(boost::beast::http::status::ok, answer);
-  };
-}
-
 struct Outlets::Parts {
   Parts(const boost::asio::any_io_executor& executor, const OutletOptions& options, Hub& hub, Site& site)
       : metrics(hub),
         signalk(hub, site, options.vessel.empty() ? default_vessel() : options.vessel, options.version) {
     if (!options.mqtt.broker.empty()) {
-      mqtt = std::make_shared<Mqtt>(executor, options.mqtt, hub);
-      mqtt->start();
+      mqtt = std::make_unique<Mqtt>(executor, options.mqtt, hub);
       metrics.watch(mqtt->counters());
     }
     if (!options.chrony_socket.empty()) {
@@ -50,7 +43,7 @@ struct Outlets::Parts {
 
   Metrics metrics;
   SignalK signalk;
-  std::shared_ptr<Mqtt> mqtt;
+  std::unique_ptr<Mqtt> mqtt;
   std::unique_ptr<Chrony> chrony;
   std::unique_ptr<Mavlink> mavlink;
 };
@@ -58,7 +51,7 @@ struct Outlets::Parts {
 Outlets::Outlets(const boost::asio::any_io_executor& executor, const OutletOptions& options, Hub& hub, Site& site)
     : parts_(std::make_unique<Parts>(executor, options, hub, site)) {
   site.add("GET", "/metrics", parts_->metrics.handler());
-  site.add("GET", "/register_service", blueos_handler(options.version));
+  site.add("GET", "/register_service", json_handler(blueos_service(options.version)));
 }
 
 Outlets::~Outlets() { stop(); }
