@@ -18,7 +18,6 @@
 #include <filesystem>
 #include <memory>
 #include <string_view>
-#include <variant>
 
 #include "base/printable.h"
 #include "config/load.h"
@@ -157,13 +156,13 @@ Exit run(const navcal::config::Settings& settings, const std::filesystem::path& 
 
 /// Throws config::Error.
 void read_signing_keys(navcal::config::Settings& settings) {
-  using navcal::link::Key;
   for (navcal::config::PortSettings& port : settings.ports) {
     if (port.signing_key_file.empty()) continue;
-    const auto key = Key::from_file(port.signing_key_file);
-    if (const auto* const problem = std::get_if<std::string>(&key))
-      throw navcal::config::Error({"port." + port.name + ".signing_key_file: " + *problem});
-    port.signing_key = std::get<Key>(key).of_mavlink();
+    try {
+      port.signing_key = navcal::link::Key::from_file(port.signing_key_file).of_mavlink();
+    } catch (const std::runtime_error& error) {
+      throw navcal::config::Error({"port." + port.name + ".signing_key_file: " + error.what()});
+    }
   }
 }
 

@@ -97,8 +97,7 @@ namespace mavlink = protocols::mavlink;
 
 constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kParameter = 22;
 constexpr std::uint16_t kSetMessageInterval = 511;
-constexpr std::uint8_t kOurComponent = 197;
-constexpr int kAttempts = 3;            // each a frame of its own: a signed one is taken once
+constexpr std::uint8_t kOurComponent = 197, kOnboardController = 18;
 constexpr int kHeartbeatsOfRound = 30;  // heartbeats; then a ground station may have asked for other rates
 constexpr std::int64_t kAutopilotLost_ns = 5 * base::kSecond_ns;
 
@@ -138,20 +137,16 @@ class StartUpMavlink final : public StartUp {
         co_await send(heartbeat(), 0);
         for (const std::string& name : names_) {
           parameter_.clear();
-          bool is_known = false;
-          for (int attempt = 0; attempt < kAttempts && !is_known; ++attempt)
-            is_known = co_await ask(reading(name), 1, base::kSecond_ns / 2,
-                                    [&](const protocols::Frame&) { return parameter_ == name; });
+          const bool is_known = co_await ask(reading(name), 3, base::kSecond_ns / 2,
+                                             [&](const protocols::Frame&) { return parameter_ == name; });
           if (!is_known && name == names_.front()) break;  // not ArduPilot
         }
         for (const Request& request : requests_) {
           if (request.first == imu_ && has_high_resolution) continue;
           co_await send(heartbeat(), 0);
           result_ = kNoAnswer;
-          bool is_answered = false;
-          for (int attempt = 0; attempt < kAttempts && !is_answered; ++attempt)
-            is_answered = co_await ask(interval(request), 1, base::kSecond_ns / 2,
-                                       [this](const protocols::Frame&) { return result_ != kNoAnswer; });
+          const bool is_answered = co_await ask(interval(request), 3, base::kSecond_ns / 2,
+                                                [this](const protocols::Frame&) { return result_ != kNoAnswer; });
           const bool is_accepted = is_answered && result_ == 0;
           if (request.first == kHighresImu)
             has_high_resolution = is_accepted;
@@ -168,6 +163,9 @@ class StartUpMavlink final : public StartUp {
     }
   }
 
+  void sign(std::vector<std::uint8_t>& command) override {
+    if (signer_) signer_->sign(command);
+  }
   void on_any_frame(const protocols::Frame& frame) override {
     if (signer_ && signer_->check(frame.bytes) != mavlink::Signer::Verdict::good) return;
     const mavlink::Message message = mavlink::find_message(frame.bytes).message;
@@ -190,7 +188,7 @@ class StartUpMavlink final : public StartUp {
     boot_ms_ = boot_ms;
   }
 
-  std::vector<std::uint8_t> heartbeat() { return mavlink::encode_heartbeat(sender()); }
+  std::vector<std::uint8_t> heartbeat() { return mavlink::encode_heartbeat(sender(), kOnboardController); }
   std::vector<std::uint8_t> interval(const Request& request) {
     std::array<std::uint8_t, 33> payload{};
     protocols::put_le(payload.data(), static_cast<float>(request.first));
@@ -205,7 +203,7 @@ class StartUpMavlink final : public StartUp {
     return mavlink::encode_reading(sender(), *vehicle_, parameter);
   }
 
-  mavlink::Sender sender() { return {*vehicle_, kOurComponent, sequence_++, signer_ ? &*signer_ : nullptr}; }
+  mavlink::Sender sender() { return {*vehicle_, kOurComponent, sequence_++}; }
 
   static constexpr int kNoAnswer = -1;
   std::vector<Request> requests_;

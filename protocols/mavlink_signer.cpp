@@ -35,6 +35,9 @@ std::uint64_t clock_10us() {
 
 void Signer::sign(std::vector<std::uint8_t>& frame) {
   time_ = std::max(time_ + 1, clock_10us());
+  frame[2] |= 1U;  // which the checksum covers
+  frame.resize(frame.size() - 2);
+  append_checksum(frame, frame[7] | std::uint32_t{frame[8]} << 8 | std::uint32_t{frame[9]} << 16);
   frame.push_back(0);  // link
   for (unsigned bits = 0; bits < 48; bits += 8) frame.push_back(static_cast<std::uint8_t>(time_ >> bits));
   const auto tag = tag_of(key_, frame);

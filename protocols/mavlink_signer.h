@@ -17,8 +17,7 @@ class Signer {
   using Key = std::array<std::uint8_t, 32>;
   explicit Signer(const Key& key) : key_(key) {}
 
-  /// Appends link, time (the system's clock, or later than all that was seen) and signature to a frame that ends
-  /// with its checksum.
+  /// Makes a signed frame of one of encode(), with a time of the system's clock, or later than all that was seen.
   void sign(std::vector<std::uint8_t>& frame);
 
   /// `replayed`: not later than a frame of the same sender and link, or more than a minute older than the newest

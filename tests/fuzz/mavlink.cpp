@@ -21,13 +21,13 @@ void decode(const navcal::protocols::Frame& frame) {
 NAVCAL_FUZZ(mavlink) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<mavlink::Scanner>({data, size}, decode);
-  const auto frame = mavlink::encode(30, {1, 1, 0}, Bytes(data, std::min<std::size_t>(size, 255)));
+  auto frame = mavlink::encode(30, {1, 1, 0}, Bytes(data, std::min<std::size_t>(size, 255)));
   navcal::fuzz::check_stream<mavlink::Scanner>(frame, decode);
   mavlink::Signer ours({}), theirs({});
   static_cast<void>(theirs.check({data, size}));
-  const auto signed_frame = mavlink::encode(30, {1, 1, 0, &ours}, Bytes(data, std::min<std::size_t>(size, 255)));
-  navcal::fuzz::check_stream<mavlink::Scanner>(signed_frame, decode);
-  navcal::fuzz::require(mavlink::Signer({}).check(signed_frame) == mavlink::Signer::Verdict::good);
+  ours.sign(frame);
+  navcal::fuzz::check_stream<mavlink::Scanner>(frame, decode);
+  navcal::fuzz::require(mavlink::Signer({}).check(frame) == mavlink::Signer::Verdict::good);
   return 0;
 }
 

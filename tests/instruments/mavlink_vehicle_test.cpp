@@ -185,6 +185,11 @@ TEST_F(Vehicle, AnotherComponentHasAClockOfItsOwn) {
 
 constexpr std::array<std::uint8_t, 32> kSigningKey{1, 2, 3};
 
+std::vector<std::uint8_t> signed_by(mavlink::Signer& signer, std::vector<std::uint8_t> frame) {
+  signer.sign(frame);
+  return frame;
+}
+
 TEST(SignedVehicle, WithAKeyOnlyGoodSignaturesCount) {
   auto settings = port();
   settings.signing_key = kSigningKey;
@@ -198,8 +203,8 @@ TEST(SignedVehicle, WithAKeyOnlyGoodSignaturesCount) {
   const auto beat = Fields{}.put(std::uint32_t{0}).put(std::uint8_t{12}).put(std::uint8_t{3});
   const auto angles = Fields{}.put(1000U).put(0.125F).put(-0.25F).put(1.5F);
   EXPECT_EQ(say(mavlink::encode(0, {1, 1, 0}, beat.bytes)), Verdict::unsigned_);
-  EXPECT_EQ(say(mavlink::encode(0, {1, 1, 0, &signer}, beat.bytes)), Verdict::ignored);
-  auto attitude = mavlink::encode(30, {1, 1, 0, &signer}, angles.bytes);
+  EXPECT_EQ(say(signed_by(signer, mavlink::encode(0, {1, 1, 0}, beat.bytes))), Verdict::ignored);
+  auto attitude = signed_by(signer, mavlink::encode(30, {1, 1, 0}, angles.bytes));
   EXPECT_EQ(say(attitude), Verdict::used);
   EXPECT_EQ(say(attitude), Verdict::replayed);
   attitude.back() ^= 1U;
@@ -271,7 +276,7 @@ TEST(MavlinkDialogueSigned, SignsWhatItSaysAndHearsOnlyTheSigned) {
   FakeAutopilot::say(dialogue, 0, beat);
   dialogue.run_for(3 * base::kSecond_ns);
   EXPECT_TRUE(dialogue.sent.empty()) << "a heartbeat without a signature";
-  const auto frame = mavlink::encode(0, {1, 1, 0, &autopilot}, beat.bytes);
+  const auto frame = signed_by(autopilot, mavlink::encode(0, {1, 1, 0}, beat.bytes));
   dialogue.answer("HEARTBEAT", {frame.begin(), frame.end()});
   dialogue.run_for(3 * base::kSecond_ns);
   EXPECT_GT(heartbeats, 0);

@@ -2,8 +2,6 @@
 #include "web/outlets/mavlink.h"
 
 #include <cstdio>
-#include <stdexcept>
-#include <variant>
 
 #include "config/load.h"
 #include "config/network_address.h"
@@ -15,6 +13,7 @@ namespace {
 
 namespace mavlink = protocols::mavlink;
 constexpr std::uint32_t kTimesync = 111;
+constexpr std::uint8_t kOnboardController = 18;
 
 config::PortSettings settings_of(const MavlinkOptions& options) {
   auto settings = config::default_port("mavlink", protocols::Protocol::mavlink, options.baud);
@@ -38,12 +37,7 @@ Mavlink::Mavlink(const boost::asio::any_io_executor& executor, const MavlinkOpti
     : options_(options), hub_(hub), timer_(executor),
       messages_(options, [this](std::uint32_t id, protocols::Bytes payload) { send(id, payload); }),
       port_(executor, settings_of(options), *this) {
-  if (!options.key_file.empty()) {
-    const auto key = link::Key::from_file(options.key_file);
-    if (const auto* const problem = std::get_if<std::string>(&key))
-      throw std::runtime_error("--mavlink-key-file: " + *problem);
-    signer_.emplace(std::get<link::Key>(key).of_mavlink());
-  }
+  if (!options.key_file.empty()) signer_.emplace(link::Key::from_file(options.key_file).of_mavlink());
   hub_.add(*this, {false, {"/nav", "/time", "/health", "/event"}, std::nullopt});
   port_.start();
   wait();
@@ -58,7 +52,7 @@ void Mavlink::tick() {
     told_ = messages_.problem();
     tell(told_.empty() ? "the position goes out" : "no position goes out: " + told_);
   }
-  if (counters_.open) port_.send(mavlink::encode_heartbeat(sender()));
+  send(mavlink::encode_heartbeat(sender(), kOnboardController));
   wait();
 }
 
@@ -69,12 +63,11 @@ void Mavlink::wait() {
   });
 }
 
-mavlink::Sender Mavlink::sender() {
-  return {options_.system, options_.component, sequence_++, signer_ ? &*signer_ : nullptr};
-}
+void Mavlink::send(std::uint32_t id, protocols::Bytes payload) { send(mavlink::encode(id, sender(), payload)); }
 
-void Mavlink::send(std::uint32_t id, protocols::Bytes payload) {
-  if (!counters_.open || !port_.send(mavlink::encode(id, sender(), payload))) ++counters_.dropped;
+void Mavlink::send(std::vector<std::uint8_t> frame) {
+  if (signer_) signer_->sign(frame);
+  port_.send(frame);
 }
 
 void Mavlink::on_opened(std::int64_t /*now_ns*/, const ports::OpenPort& port) {
@@ -89,6 +82,10 @@ void Mavlink::on_lost(std::int64_t /*now_ns*/, std::string_view reason) {
 
 void Mavlink::on_sent(std::int64_t /*now_ns*/, protocols::Bytes bytes) {
   sent_.feed(bytes, [this](const protocols::Frame&) { ++counters_.sent; });
+}
+
+void Mavlink::on_dropped(protocols::Bytes bytes) {
+  dropped_.feed(bytes, [this](const protocols::Frame&) { ++counters_.dropped; });
 }
 
 // PX4 asks for our clock, by which it understands our times: that of the times that are sent.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ports/port.h"
 #include "protocols/mavlink.h"
@@ -19,7 +20,7 @@ struct MavlinkCounters {
   bool open = false;
   bool has_position = false;  ///< ODOMETRY or GPS_INPUT goes out
   std::uint64_t sent = 0;     ///< messages that the driver took
-  std::uint64_t dropped = 0;  ///< because the line was slower, or away
+  std::uint64_t dropped = 0;  ///< because the line was slower, or away, or had nobody at its other end
   std::uint64_t received = 0;
   std::uint64_t refused = 0;  ///< of those received: without a good signature
 };
@@ -39,20 +40,22 @@ class Mavlink final : public Subscriber, public ports::PortListener {
   void on_opened(std::int64_t now_ns, const ports::OpenPort& port) override;
   void on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) override;
   void on_sent(std::int64_t now_ns, protocols::Bytes bytes) override;
+  void on_dropped(protocols::Bytes bytes) override;
   void on_lost(std::int64_t now_ns, std::string_view reason) override;
 
  private:
   void tick();
   void wait();
   void send(std::uint32_t id, protocols::Bytes payload);
-  [[nodiscard]] protocols::mavlink::Sender sender();
+  void send(std::vector<std::uint8_t> frame);
+  [[nodiscard]] protocols::mavlink::Sender sender() { return {options_.system, options_.component, sequence_++}; }
 
   MavlinkOptions options_;
   Hub& hub_;
   boost::asio::steady_timer timer_;
   MavlinkMessages messages_;
   std::optional<protocols::mavlink::Signer> signer_;
-  protocols::mavlink::Parser sent_, received_;
+  protocols::mavlink::Parser sent_, dropped_, received_;
   MavlinkCounters counters_;
   std::uint8_t sequence_ = 0;
   std::string told_;
