@@ -6,9 +6,13 @@ the same stamp, field by field, and a peer that goes away disturbs nothing.
 usage: check_outlet.py NAVCAL NAVCALD NAVCAL_WEB
 """
 
+import contextlib
+import datetime
+import functools
 import hashlib
 import json
 import math
+import operator
 import os
 import pathlib
 import re
@@ -20,6 +24,7 @@ import sys
 import tempfile
 import threading
 import time
+import tty
 import urllib.request
 
 NAVCAL, NAVCALD, NAVCAL_WEB = (os.path.abspath(program) for program in sys.argv[1:4])
@@ -55,9 +60,39 @@ def single(value):
     return struct.unpack("<f", struct.pack("<f", value))[0]
 
 
+class Listener:
+    """node-mavlink at the other end of one navcal-web."""
+
+    def __init__(self, stand, port, *key):
+        self.heard = []
+        self.process = stand.start("listener", "node", HERE / "listener.mjs", port, *key)
+        threading.Thread(target=lambda: [self.heard.append(json.loads(line)) for line in self.process.stdout], daemon=True).start()
+
+    def of(self, number):
+        return [said for said in self.heard if said.get("id") == number]
+
+    def end(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class Web:
+    def __init__(self, stand, *options):
+        self.http, self.mavlink = free_port(socket.SOCK_STREAM), free_port(socket.SOCK_DGRAM)
+        self.process = stand.start("navcal-web", NAVCAL_WEB, "--port", self.http, "--status", f"127.0.0.1:{stand.status}", "--mavlink",
+                                   f"udp:127.0.0.1:{self.mavlink}", *options)
+
+    def metric(self, name):
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/metrics", timeout=20) as page:
+            for line in page.read().decode().splitlines():
+                if line.startswith(f"navcal_web_mavlink_{name} "):
+                    return float(line.split()[1])
+        return None
+
+
 class Stand:
     def __init__(self, folder):
-        self.folder, self.processes, self.navs, self.heard = pathlib.Path(folder), [], {}, []
+        self.folder, self.processes, self.navs = pathlib.Path(folder), [], {}
 
     def start(self, name, *command):
         with open(self.folder / f"{name}.log", "ab") as log:
@@ -66,10 +101,28 @@ class Stand:
         self.processes.append(process)
         return process
 
+    def receiver(self):
+        """A GPS receiver that has its fix at once, where the emulated vehicle begins. Of the emulated one it would take a minute."""
+        master, self.slave = os.openpty()
+        tty.setraw(self.slave)
+        os.set_blocking(master, False)
+
+        def speak():
+            while True:
+                time.sleep(1 - time.time() % 1)
+                now = datetime.datetime.fromtimestamp(round(time.time()), datetime.timezone.utc)
+                for text in (f"GPRMC,{now:%H%M%S}.00,A,5919.9560,N,01803.8940,E,1.0,90.0,{now:%d%m%y},,,A",
+                             f"GPGGA,{now:%H%M%S}.00,5919.9560,N,01803.8940,E,1,08,0.9,12.0,M,24.0,M,,"):
+                    with contextlib.suppress(OSError):
+                        os.write(master, f"${text}*{functools.reduce(operator.xor, text.encode()):02X}\r\n".encode())
+        threading.Thread(target=speak, daemon=True).start()
+        return os.ttyname(self.slave)
+
     def navcald(self):
         lines = ['log.enabled = false', f'log.directory = "{self.folder}"', f'status.port = {self.status}', f'control.socket = "{self.folder}/control"',
                  "navigation.interval_s = 0.05"]
-        for port, protocol in (("compass", "tcm2"), ("imu", "imu-card"), ("gps", "oncore"), ("motor", "motor-card")):
+        lines += ["[port.gps]", 'protocol = "nmea"', f'path = "{self.receiver()}"']
+        for port, protocol in (("compass", "tcm2"), ("imu", "imu-card"), ("motor", "motor-card")):
             lines += [f'[port.{port}]', f'protocol = "{protocol}"', f'path = "{self.folder}/ports/{port}"']
             lines += ["baud = 38400"] if port == "compass" else []
         (self.folder / "navcald.toml").write_text("\n".join(lines) + "\n")
@@ -85,31 +138,11 @@ class Stand:
                 if said["class"] == "RECORD" and stamp:
                     self.navs[int(stamp[1] + stamp[2]) // 1000] = said["message"]
 
-    def web(self, *options):
-        self.http = free_port(socket.SOCK_STREAM)
-        return self.start("navcal-web", NAVCAL_WEB, "--port", self.http, "--status", f"127.0.0.1:{self.status}", "--mavlink",
-                          f"udp:127.0.0.1:{self.mavlink}", *options)
-
-    def listen(self, *key):
-        listener = self.start("listener", "node", HERE / "listener.mjs", self.mavlink, *key)
-        threading.Thread(target=lambda: [self.heard.append(json.loads(line)) for line in listener.stdout], daemon=True).start()
-        return listener
-
-    def metric(self, name):
-        with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/metrics", timeout=20) as page:
-            for line in page.read().decode().splitlines():
-                if line.startswith(name + " "):
-                    return float(line.split()[1])
-        return None
-
     def command(self, **request):
         with socket.socket(socket.AF_UNIX) as control:
             control.connect(f"{self.folder}/control")
             control.sendall(json.dumps(request).encode() + b"\n")
             assert json.loads(control.makefile().readline())["ok"]
-
-    def of(self, number):
-        return [said for said in self.heard if said.get("id") == number]
 
 
 def rotation(roll, pitch, heading):
@@ -130,17 +163,26 @@ def near(found, expected, tolerance):
     assert abs(found - expected) <= tolerance, (found, expected)
 
 
+def metres_each_radian(lat):
+    """Northward and eastward, on the ellipsoid."""
+    square = 1 - 0.00669437999 * math.sin(lat) ** 2
+    return 6378137 * (1 - 0.00669437999) / square ** 1.5, 6378137 / math.sqrt(square) * math.cos(lat)
+
+
+def origin_of(said, nav):
+    """Where x and y are 0: the first position, which may have gone out before the listener was there."""
+    north, east = metres_each_radian(math.radians(nav["lat"]))
+    return nav["lat"] - math.degrees(said["fields"]["x"] / north), nav["lon"] - math.degrees(said["fields"]["y"] / east)
+
+
 def check_odometry(said, nav, origin):
     fields = said["fields"]
     assert (fields["frameId"], fields["childId"] if "childId" in fields else fields["childFrameId"]) == (20, 12), fields
     assert (fields["quality"], fields["estimatorType"]) == (0, 0)
-    # On the ellipsoid, within a few hundred metres of the origin.
-    lat = math.radians(origin[0])
-    sine = 1 - 0.00669437999 * math.sin(lat) ** 2
-    north = math.radians(nav["lat"] - origin[0]) * 6378137 * (1 - 0.00669437999) / sine ** 1.5
-    east = math.radians(nav["lon"] - origin[1]) * 6378137 / math.sqrt(sine) * math.cos(lat)
-    near(fields["x"], north, 0.01 + 1e-4 * abs(north))
-    near(fields["y"], east, 0.01 + 1e-4 * abs(east))
+    # Within a few hundred metres of the origin.
+    for name, place, zero, metres in zip(("x", "y"), (nav["lat"], nav["lon"]), origin, metres_each_radian(math.radians(origin[0]))):
+        away = math.radians(place - zero) * metres
+        near(fields[name], away, 0.01 + 1e-4 * abs(away))
     assert fields["z"] == single(nav["depth_m"])
     body = rotation(nav["roll_rad"], nav["pitch_rad"], nav["heading_rad"])
     for axis in range(3):  # the quaternion turns each axis of the body as the angles do
@@ -189,98 +231,95 @@ def joined_texts(said):
     return texts
 
 
+def check_fields(said, navs):
+    """Every frame against the estimate of the same stamp. Returns the number of estimates with a covariance."""
+    assert not any("bad" in one for one in said), "a frame did not decode"
+    assert {(one["system"], one["component"]) for one in said} == {(1, 197)}
+    assert all(one["trimmed"] for one in said)
+    of = lambda number: [one for one in said if one["id"] == number]  # noqa: E731
+    origin_at = int(of(331)[0]["fields"]["timeUsec"])
+    origin = origin_of(of(331)[0], navs[origin_at])
+    known = [check_odometry(one, navs[int(one["fields"]["timeUsec"])], origin) for one in of(331)]
+    for one in of(232):
+        at = int(one["fields"]["timeUsec"])
+        check_gps(one, navs[at], is_north_known=at > origin_at)
+    stamps = [one["fields"]["timeUsec"] for one in of(331)]
+    assert len(set(stamps)) == len(stamps), "an estimate was sent twice"
+    assert {"hdg_std", "pos_std", "fix_age"} <= {one["fields"]["name"] for one in of(251)}
+    beat = of(0)[0]["fields"]
+    assert (beat["type"], beat["autopilot"], beat["systemStatus"]) == (18, 8, 4), beat
+    # Its clock is that of the stamps.
+    assert of(111) and all(abs(int(one["fields"]["tc1"]) * 1e-9 - time.time()) < 300 for one in of(111))
+    print(f"{len(said)} frames, all decoded: {len(known)} ODOMETRY ({sum(known)} with covariance), {len(of(232))} GPS_INPUT, "
+          f"{len(of(251))} NAMED_VALUE_FLOAT, {len(of(253))} STATUSTEXT, {len(of(111))} TIMESYNC")
+    return sum(known)
+
+
 def run(stand):
-    stand.status, stand.mavlink = free_port(socket.SOCK_STREAM), free_port(socket.SOCK_DGRAM)
+    stand.status = free_port(socket.SOCK_STREAM)
     emulator = stand.start("emulate", NAVCAL, "emulate", "--mission", "survey", "--dir", stand.folder / "ports", "--seed", "5")
     wait_for("the emulated instruments", lambda: "ready" in (stand.folder / "emulate.log").read_text())
     daemon = stand.navcald()
     wait_for("navcald", lambda: socket.create_connection(("127.0.0.1", stand.status)).close() is None)
     threading.Thread(target=stand.watch, daemon=True).start()
-    web = stand.web("--mavlink-gps-rate", "5", "--mavlink-tilt-std", TILT_STD_DEG)
-    listener = stand.listen()
-    wait_for("a position", lambda: stand.of(331))
-    wait_for("the metric", lambda: stand.metric("navcal_web_mavlink_position") == 1)
-    stand.command(command="event", text=EVENT)
-    begin, before = time.monotonic(), len(stand.of(331))
-    time.sleep(10)
-    rate = (len(stand.of(331)) - before) / (time.monotonic() - begin)
-    texts = wait_for("the event", lambda: [text for text in joined_texts(stand.of(253)) if text[1].endswith(EVENT)])
-    assert texts == [(6, EVENT)], texts
-    wait_for("the last estimates", lambda: int(stand.of(331)[-1]["fields"]["timeUsec"]) <= max(stand.navs))
-
-    # A peer that is stopped, and gone: navcald and the others see nothing of it.
-    listener.send_signal(signal.SIGSTOP)
-    navs = len(stand.navs)
-    wait_for("estimates go on", lambda: len(stand.navs) > navs + 60)
-    listener.kill()
-    listener.wait()
-    navs = len(stand.navs)
-    wait_for("estimates go on", lambda: len(stand.navs) > navs + 60)
-    heard = len(stand.heard)
-    listener = stand.listen()
-    wait_for("the peer that came back", lambda: len(stand.heard) > heard + 100)
-    assert web.poll() is None and daemon.poll() is None
-
-    assert stand.metric("navcal_web_mavlink_dropped_messages_total") == 0
-    web.terminate()
-    assert web.wait(60) == 0
-    time.sleep(1)
-    listener.terminate()
-    listener.wait()
-    heard = stand.heard
-    assert not any("bad" in said for said in heard), "a frame did not decode"
-    assert {(said["system"], said["component"]) for said in heard} == {(1, 197)}
-    assert all(said["trimmed"] for said in heard)
-    first = next(said for said in heard if said.get("id") == 331)
-    origin_at = int(first["fields"]["timeUsec"])
-    # The first one is at the origin by definition.
-    origin = (stand.navs[origin_at]["lat"], stand.navs[origin_at]["lon"])
-    known = [check_odometry(said, stand.navs[int(said["fields"]["timeUsec"])], origin) for said in stand.of(331)]
-    for said in stand.of(232):
-        at = int(said["fields"]["timeUsec"])
-        check_gps(said, stand.navs[at], is_north_known=at > origin_at)
-    stamps = [said["fields"]["timeUsec"] for said in stand.of(331)]
-    assert len(set(stamps)) == len(stamps), "an estimate was sent twice"
-    values = {said["fields"]["name"] for said in stand.of(251)}
-    assert {"hdg_std", "pos_std", "fix_age"} <= values, values
-    beat = stand.of(0)[0]["fields"]
-    assert (beat["type"], beat["autopilot"], beat["systemStatus"]) == (18, 8, 4), beat
-    # Its clock is that of the stamps.
-    clock = stand.of(111)
-    assert clock and all(abs(int(said["fields"]["tc1"]) * 1e-9 - time.time()) < 300 for said in clock)
-    near(rate, 20, 2)
-    print(f"{len(heard)} frames, all decoded: {len(known)} ODOMETRY ({rate:.1f} a second; {sum(known)} with covariance), "
-          f"{len(stand.of(232))} GPS_INPUT, {len(stand.of(251))} NAMED_VALUE_FLOAT, {len(stand.of(253))} STATUSTEXT, {len(clock)} TIMESYNC")
-
-    # Signed both ways with a passphrase; messages without a signature are refused and counted.
+    # One as it is, and one that signs both ways with a passphrase, of which nobody else may have a copy.
     key = stand.folder / "key"
     key.write_text(PASSPHRASE + "\n")
     os.chmod(key, 0o644)
-    assert stand.web("--mavlink-key-file", key).wait(60) == 1
+    assert Web(stand, "--mavlink-key-file", key).process.wait(60) == 1
     assert "chmod 600" in (stand.folder / "navcal-web.log").read_text()
     os.chmod(key, 0o600)
-    stand.heard.clear()
-    web = stand.web("--mavlink-key-file", key)
-    listener = stand.listen(hashlib.sha256(PASSPHRASE.encode()).hexdigest())
-    wait_for("signed estimates", lambda: len(stand.of(331)) > 40)
-    assert all(said["signature"] is True for said in stand.heard), "a signature is wrong"
-    wait_for("answers to signed questions", lambda: stand.of(111))
-    assert stand.metric("navcal_web_mavlink_refused_messages_total") == 0
-    assert all(set(said["fields"]["poseCovariance"]) == {"NaN"} for said in stand.of(331)), "a tilt's error is made up"
+    web, signing = Web(stand, "--mavlink-gps-rate", "5", "--mavlink-tilt-std", TILT_STD_DEG), Web(stand, "--mavlink-key-file", key)
+    listener = Listener(stand, web.mavlink)
+    signer = Listener(stand, signing.mavlink, hashlib.sha256(PASSPHRASE.encode()).hexdigest())
+    wait_for("a position", lambda: listener.of(331))
+    wait_for("the metric", lambda: web.metric("position") == 1)
+    lost = web.metric("dropped_messages_total")  # before there was a listener
+    stand.command(command="event", text=EVENT)
+    for number, count in ((331, 100), (232, 20), (251, 9), (111, 2), (0, 3)):
+        wait_for(f"{count} of message {number}", lambda number=number, count=count: len(listener.of(number)) >= count)
+    texts = wait_for("the event", lambda: [text for text in joined_texts(listener.of(253)) if text[1].endswith(EVENT)])
+    assert texts == [(6, EVENT)], texts
+
+    # A peer that is stopped, and gone: navcald and the others see nothing of it.
+    listener.process.send_signal(signal.SIGSTOP)
+    navs = len(stand.navs)
+    wait_for("estimates go on", lambda: len(stand.navs) > navs + 20)
+    listener.end()
+    navs = len(stand.navs)
+    wait_for("estimates go on", lambda: len(stand.navs) > navs + 20)
+    back = Listener(stand, web.mavlink)
+    wait_for("the peer that came back", lambda: len(back.of(331)) > 20)
+    assert web.process.poll() is None and daemon.poll() is None
+    assert web.metric("dropped_messages_total") == lost
+
+    # Messages without a signature are refused and counted.
+    wait_for("signed estimates", lambda: len(signer.of(331)) > 40)
+    assert all(said["signature"] is True for said in signer.heard), "a signature is wrong"
+    wait_for("answers to signed questions", lambda: signer.of(111))
+    assert signing.metric("refused_messages_total") == 0
+    assert all(set(said["fields"]["poseCovariance"]) == {"NaN"} for said in signer.of(331)), "a tilt's error is made up"
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as foreign:
-        foreign.sendto(bytes.fromhex("fd090000000101000000036e339c4c9ef8a9a8a4dc"), ("127.0.0.1", stand.mavlink))
-    wait_for("the refusal", lambda: stand.metric("navcal_web_mavlink_refused_messages_total") == 1)
-    assert web.poll() is None and emulator.poll() is None
-    print(f"{len(stand.heard)} signed frames, all good")
+        foreign.sendto(bytes.fromhex("fd090000000101000000036e339c4c9ef8a9a8a4dc"), ("127.0.0.1", signing.mavlink))
+    wait_for("the refusal", lambda: signing.metric("refused_messages_total") == 1)
+    # It came from another address, to which answers go: the next one of the listener brings them back.
+    heard = len(signer.heard)
+    wait_for("more of them", lambda: len(signer.heard) > heard + 20)
+    assert signing.process.poll() is None and emulator.poll() is None
 
     # No estimates: none goes out, and that is said.
     daemon.terminate()
     assert daemon.wait(60) == 0
-    wait_for("the end of positions", lambda: stand.metric("navcal_web_mavlink_position") == 0)
-    wait_for("its text", lambda: any("sends no position: no estimate comes from navcald" in text for _, text in joined_texts(stand.of(253))[-2:]))
-    ended = len(stand.of(331)) + len(stand.of(232))
-    time.sleep(2)
-    assert len(stand.of(331)) + len(stand.of(232)) == ended, "a position is repeated"
+    wait_for("the end of positions", lambda: web.metric("position") == 0)
+    wait_for("its text", lambda: any("sends no position: no estimate comes from navcald" in text for _, text in joined_texts(back.of(253))[-2:]))
+    ended, beats = len(back.of(331)) + len(back.of(232)), len(back.of(0))
+    wait_for("heartbeats without it", lambda: len(back.of(0)) > beats + 2)
+    assert len(back.of(331)) + len(back.of(232)) == ended, "a position is repeated"
+    web.process.terminate()
+    assert web.process.wait(60) == 0
+    assert check_fields(listener.heard + back.heard, stand.navs) > 0
+    assert not any("bad" in said for said in signer.heard)
+    print(f"{len(signer.heard)} signed frames, all good")
 
 
 with tempfile.TemporaryDirectory() as temporary:
