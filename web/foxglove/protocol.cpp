@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "protocols/wire_fields.h"
 #include "record/json/json_members.h"
 
 namespace navcal::web::foxglove {
@@ -12,16 +13,7 @@ namespace {
 
 using record::json_text;
 
-constexpr char kMessageData = 1;
-constexpr char kTime = 2;
-
-template <class Integer>
-void append_little_endian(std::string& out, Integer value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) {
-    out += static_cast<char>(value & 0xFF);
-    value = static_cast<Integer>(value >> 8);
-  }
-}
+constexpr std::uint8_t kMessageData = 1, kTime = 2;
 
 /// Ids have 32 bits, because a message's head has room for so many.
 std::optional<std::uint32_t> id_of(const nlohmann::json& value) {
@@ -111,19 +103,13 @@ std::string channel(std::uint32_t id, std::string_view topic, std::string_view s
 }
 
 std::string message_data(std::uint32_t subscription, std::uint64_t time_ns, std::string_view payload) {
-  std::string bytes;
-  bytes.reserve(1 + sizeof subscription + sizeof time_ns + payload.size());
-  bytes += kMessageData;
-  append_little_endian(bytes, subscription);
-  append_little_endian(bytes, time_ns);
-  bytes += payload;
-  return bytes;
+  const auto head = protocols::packed_le(kMessageData, subscription, time_ns);
+  return std::string(head.begin(), head.end()).append(payload);
 }
 
 std::string time(std::uint64_t time_ns) {
-  std::string bytes(1, kTime);
-  append_little_endian(bytes, time_ns);
-  return bytes;
+  const auto bytes = protocols::packed_le(kTime, time_ns);
+  return {bytes.begin(), bytes.end()};
 }
 
 void note_problem(ClientMessage& message, std::string problem) {

@@ -9,11 +9,8 @@
 #include <iterator>
 #include <optional>
 
-#include "web/outlets/chrony.h"
 #include "web/outlets/daemon_metrics.h"
 #include "web/outlets/json_members.h"
-#include "web/outlets/mavlink.h"
-#include "web/outlets/mqtt_connection.h"
 
 namespace navcal::web {
 namespace {
@@ -136,35 +133,11 @@ void Metrics::append_program(Exposition& out) const {
   append_process(out);
 }
 
-void Metrics::append_outlets(Exposition& out) const {
-  if (mqtt_ != nullptr) {
-    out.single("navcal_web_mqtt_connected", "1 while there is a connection to the MQTT broker.", mqtt_->connected);
-    out.single("navcal_web_mqtt_published_messages_total", "Messages that the MQTT broker got.", mqtt_->published);
-    out.single("navcal_web_mqtt_dropped_messages_total",
-               "Messages dropped, because there was no MQTT broker or it was too slow.", mqtt_->dropped);
-  }
-  if (chrony_ != nullptr) {
-    out.single("navcal_web_chrony_samples_total", "Samples that chronyd got.", chrony_->samples);
-    out.single("navcal_web_chrony_failed_samples_total", "Samples that nobody took.", chrony_->not_sent);
-  }
-  if (mavlink_ != nullptr) {
-    out.single("navcal_web_mavlink_open", "1 while the line of MAVLink is open.", mavlink_->open);
-    out.single("navcal_web_mavlink_position", "1 while a position goes out by MAVLink.", mavlink_->has_position);
-    out.single("navcal_web_mavlink_sent_messages_total", "Messages that the line of MAVLink took.",
-               mavlink_->sent);
-    out.single("navcal_web_mavlink_dropped_messages_total",
-               "Messages dropped, because the line of MAVLink was away or too slow.", mavlink_->dropped);
-    out.single("navcal_web_mavlink_received_messages_total", "Messages that came by MAVLink.", mavlink_->received);
-    out.single("navcal_web_mavlink_refused_messages_total", "Of those, messages without a good signature.",
-               mavlink_->refused);
-  }
-}
-
 std::string Metrics::page() const {
   Exposition out;
   append_daemon(out);
   append_program(out);
-  append_outlets(out);
+  if (more_) more_(out);
   return out.text();
 }
 

@@ -243,22 +243,20 @@ void SignalKFeed::publish(SignalKUpdate update) {
   }
 }
 
-SignalK::SignalK(Hub& hub, Site& site, std::string vessel, std::string version)
-    : feed_(std::make_shared<SignalKFeed>(hub, "vessels." + std::move(vessel), version)) {
-  site.add("GET", "/signalk",
-           [version = std::move(version)](const Request& request) -> boost::asio::awaitable<Response> {
-             const auto host = request[boost::beast::http::field::host];
-             co_return respond_json(boost::beast::http::status::ok,
-                                    signalk_discovery({host.data(), host.size()}, version));
-           });
-  site.add("GET", "/signalk/v1/api/self", json_handler(nlohmann::json(feed_->self()).dump()));
+std::shared_ptr<SignalKFeed> add_signalk(Hub& hub, Site& site, const std::string& vessel,
+                                         const std::string& version) {
+  const auto feed = std::make_shared<SignalKFeed>(hub, "vessels." + vessel, version);
+  site.add("GET", "/signalk", [version](const Request& request) -> boost::asio::awaitable<Response> {
+    const auto host = request[boost::beast::http::field::host];
+    co_return respond_json(boost::beast::http::status::ok, signalk_discovery({host.data(), host.size()}, version));
+  });
+  site.add("GET", "/signalk/v1/api/self", json_handler(nlohmann::json(feed->self()).dump()));
   site.add({.path = std::string(kStreamPath),
-            .make_peer = [feed = feed_](PeerLink& link, std::string_view target) -> std::unique_ptr<Peer> {
+            .make_peer = [feed](PeerLink& link, std::string_view target) -> std::unique_ptr<Peer> {
               return std::make_unique<SignalKPeer>(feed, link, target);
             }});
+  return feed;
 }
-
-SignalK::~SignalK() { feed_->detach(); }
 
 std::string default_vessel() {
   // A namespace of navcal's own, so that the same machine has another name with other programs.
