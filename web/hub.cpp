@@ -92,9 +92,9 @@ Demand Hub::demand() const {
   return all;
 }
 
-void Hub::repeat_newest(Subscriber& subscriber) const {
+void Hub::repeat_newest(const std::function<void(const Record&)>& take) const {
   for (const auto& [key, kept] : newest_) {
-    subscriber.on_record({key.first, key.second, kept.utc_ns, kept.message});
+    take({key.first, key.second, kept.utc_ns, kept.message});
   }
 }
 

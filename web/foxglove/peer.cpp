@@ -31,16 +31,6 @@ struct Shared {
   Channels channels;
 };
 
-/// Hands each record to a function.
-class EachRecord final : public Subscriber {
- public:
-  explicit EachRecord(std::function<void(const Record&)> take) : take_(std::move(take)) {}
-  void on_record(const Record& record) override { take_(record); }
-
- private:
-  std::function<void(const Record&)> take_;
-};
-
 class Viewer final : public Peer, public Subscriber {
  public:
   Viewer(std::shared_ptr<Shared> shared, PeerLink& link) : shared_(std::move(shared)), link_(link) {}
@@ -171,12 +161,10 @@ class Viewer final : public Peer, public Subscriber {
   /// The newest messages of channels just subscribed. The time is told before: it is that of the newest record of
   /// all, because an old message must not turn the client's clock back.
   void repeat_newest(const std::set<const Channel*>& channels) {
-    EachRecord newest([this](const Record& record) {
+    shared_->hub.repeat_newest([this](const Record& record) {
       if (record.utc_ns && *record.utc_ns > time_ns_) advance_time(*record.utc_ns);
     });
-    shared_->hub.repeat_newest(newest);
-    EachRecord messages([&](const Record& record) { deliver(record, &channels); });
-    shared_->hub.repeat_newest(messages);
+    shared_->hub.repeat_newest([&](const Record& record) { deliver(record, &channels); });
   }
   void deliver(const Record& record, const std::set<const Channel*>* only) {
     const auto [begin, end] = by_topic_.equal_range(record.topic);

@@ -189,15 +189,10 @@ class Mqtt final : public Subscriber {
     publish(will_, "1", Quality::at_least_once, true);
     states_.clear();
     on_link(hub_.link());
-    struct States final : Subscriber {
-      explicit States(Mqtt& mqtt) : mqtt_(mqtt) {}
-      void on_record(const Record& record) override {
-        const auto place = mqtt_place(mqtt_.options_.prefix, record);
-        if (place && !place->is_event) mqtt_.on_record(record);
-      }
-      Mqtt& mqtt_;
-    } states(*this);
-    hub_.repeat_newest(states);
+    hub_.repeat_newest([this](const Record& record) {
+      const auto place = mqtt_place(options_.prefix, record);
+      if (place && !place->is_event) on_record(record);
+    });
   }
   /// At least once: also waits for a broker that is away.
   void publish(const std::string& topic, std::string_view message, Quality quality, bool is_retained) {

@@ -206,7 +206,7 @@ void SignalKFeed::add(SignalKPeer& peer) {
   Demand demand{false, {}, kSignalKRate_Hz};
   demand.topics.insert(std::begin(SignalKModel::kTopics), std::end(SignalKModel::kTopics));
   hub_->add(*this, std::move(demand));
-  hub_->repeat_newest(*this);
+  hub_->repeat_newest([this](const Record& record) { on_record(record); });
 }
 
 void SignalKFeed::remove(SignalKPeer& peer) {
