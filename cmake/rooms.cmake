@@ -31,7 +31,7 @@ set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim emul
 set(NAVCAL_MAY_INCLUDE_fleet base protocols config record gap analysis report)
 set(NAVCAL_MAY_INCLUDE_api base api/include protocols config devices instruments pipeline record sim emulation gap analysis report)
 set(NAVCAL_MAY_INCLUDE_share)
-set(NAVCAL_MAY_INCLUDE_web base record ports share)
+set(NAVCAL_MAY_INCLUDE_web base protocols config record ports link share)
 set(NAVCAL_MAY_INCLUDE_ros2 base protocols record ports analysis share web)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports link share)
 set(NAVCAL_MAY_INCLUDE_cli/live base protocols config devices record ports link autopilot sim emulation share)

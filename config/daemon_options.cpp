@@ -92,8 +92,6 @@ std::vector<Option<Settings>> battery_options() {
   };
 }
 
-bool is_absolute_path_or_nothing(std::string_view text) { return text.empty() || is_absolute_path(text); }
-
 bool is_socket_address_or_nothing(std::string_view text) { return text.empty() || socket_address(text); }
 
 std::vector<Option<Settings>> remote_options() {

@@ -100,6 +100,11 @@ std::vector<Option<P>> make_port_options() {
       of_mavlink.integer("pressure_sensor", &P::pressure_sensor, kNoUnit, 1, 4,
                          "Number of the autopilot's pressure sensor that is taken; of a BlueROV2 1 is inside the "
                          "hull. 4: the primary one, by HIGHRES_IMU."),
+      of_mavlink.text("signing_key_file", &P::signing_key_file, is_absolute_path_or_nothing,
+                      "an absolute path, or nothing",
+                      "File with the key of MAVLink's signatures: 64 hexadecimal digits, or the passphrase of the "
+                      "ground station, of 16 characters or more. Only its owner may have access to it. With it, "
+                      "messages without a good signature are not read."),
       port.boolean("low_latency", &P::low_latency, "Ask the driver to deliver bytes without delay."),
       port.number("latency_ms", &P::latency_s, kMilliseconds, 0, 10000,
                   "Time from the measurement to the first byte on the wire."),

@@ -82,6 +82,8 @@ struct PortSettings {
   std::string description;          ///< its text: the configuration that a log has holds it
   std::vector<std::string> adjust;  ///< zeros and scales of this single device, as described::adjust() takes them
   std::optional<protocols::described::Description> described;  ///< the text as it was read, adjusted
+  std::string signing_key_file;                                ///< MAVLink; empty: without signatures
+  std::optional<std::array<std::uint8_t, 32>> signing_key{};   ///< read from it by navcald alone
 
   bool operator==(const PortSettings&) const = default;
 };

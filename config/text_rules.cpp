@@ -27,6 +27,7 @@ bool is_local_path(std::string_view text) {
 }
 
 bool is_absolute_path(std::string_view text) { return is_printable(text) && text.front() == '/'; }
+bool is_absolute_path_or_nothing(std::string_view text) { return text.empty() || is_absolute_path(text); }
 
 bool is_socket_path(std::string_view text) {
   return is_absolute_path(text) && text.size() < sizeof(sockaddr_un::sun_path);

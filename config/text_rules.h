@@ -22,6 +22,7 @@ namespace navcal::config {
 [[nodiscard]] bool is_port_name(std::string_view text);
 /// "gpiochip0", or its path in /dev.
 [[nodiscard]] bool is_gpio_chip(std::string_view text);
+[[nodiscard]] bool is_absolute_path_or_nothing(std::string_view text);
 [[nodiscard]] bool is_port_name_or_nothing(std::string_view text);
 /// At most 64 of letters, digits, '_', '-' and '.'.
 [[nodiscard]] bool is_identifier_or_nothing(std::string_view text);

@@ -25,6 +25,7 @@
 #include "daemon/daemon.h"
 #include "daemon/motor_note.h"
 #include "daemon/start_error.h"
+#include "link/key.h"
 #include "share/manual.h"
 
 namespace {
@@ -153,6 +154,18 @@ Exit run(const navcal::config::Settings& settings, const std::filesystem::path& 
   return daemon.finish() ? kStopped : kShaftMayTurn;
 }
 
+/// Throws config::Error.
+void read_signing_keys(navcal::config::Settings& settings) {
+  for (navcal::config::PortSettings& port : settings.ports) {
+    if (port.signing_key_file.empty()) continue;
+    try {
+      port.signing_key = navcal::link::Key::from_file(port.signing_key_file).of_mavlink();
+    } catch (const std::runtime_error& error) {
+      throw navcal::config::Error({"port." + port.name + ".signing_key_file: " + error.what()});
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -160,7 +173,8 @@ int main(int argc, char** argv) {
   Options options;
   if (const auto status = parse(argc, argv, options)) return *status;
   try {
-    const auto settings = navcal::config::load(options.config, options.overrides);
+    auto settings = navcal::config::load(options.config, options.overrides);
+    read_signing_keys(settings);
     if (options.check) {
       std::fputs(navcal::daemon::describe(settings).c_str(), stdout);
       return kStopped;

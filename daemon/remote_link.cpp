@@ -28,9 +28,7 @@ link::EndOptions end_options(const config::RemoteSettings& settings) {
   options.budget_B_s = settings.budget_B_s;
   options.dead_s = settings.dead_s;
   if (settings.key_file.empty()) return options;
-  auto key = link::Key::from_file(settings.key_file);
-  if (const auto* problem = std::get_if<std::string>(&key)) throw StartError("remote.key_file: " + *problem);
-  options.key = std::get<link::Key>(std::move(key));
+  options.key = link::Key::from_file(settings.key_file);
   return options;
 }
 

@@ -38,7 +38,7 @@ class RemoteOwner {
 /// The vehicle's end of the remote link at work (docs/remote.md): its line, its timer, and what operators ask for.
 class RemoteLink : private ports::PortListener {
  public:
-  /// Throws StartError when the key cannot be read or the address is taken.
+  /// Throws std::runtime_error when the key cannot be read or the address is taken.
   RemoteLink(const boost::asio::any_io_executor& executor, const config::RemoteSettings& settings,
              RemoteOwner& owner);
 

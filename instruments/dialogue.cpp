@@ -35,7 +35,9 @@ std::optional<std::vector<std::uint8_t>> Dialogue::next(std::int64_t now_ns) {
   --attempts_left_;
   listening_ = true;
   due_ns_ = now_ns + patience_ns_;
-  return command_;
+  auto command = command_;
+  sign(command);
+  return command;
 }
 
 void Dialogue::go_on(bool answered) {

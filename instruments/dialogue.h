@@ -50,6 +50,8 @@ class Dialogue {
   using Answers = std::function<bool(const protocols::Frame&)>;
 
   virtual Script script() = 0;
+  /// Before each time that a command is sent.
+  virtual void sign(std::vector<std::uint8_t>& /*command*/) {}
   /// For what counts whenever it comes.
   virtual void on_any_frame(const protocols::Frame&) {}
 

@@ -58,8 +58,9 @@ inline void hand_over(const Value& value, Receiver& receiver, bool paces = true)
 /// seconds). No clock.
 class Instrument {
  public:
-  /// `begins`: used, and the first frame of an epoch. `foreign`: of another device on the same line.
-  enum class Verdict : std::uint8_t { used, begins, ignored, foreign, out_of_range };
+  /// `begins`: used, and the first frame of an epoch. `foreign`: of another device on the same line. The last
+  /// three: its signature is missing, wrong, or of a message that came before.
+  enum class Verdict : std::uint8_t { used, begins, ignored, foreign, out_of_range, unsigned_, forged, replayed };
 
   virtual ~Instrument() = default;
   virtual Verdict read(const protocols::Frame& frame, Receiver& receiver) = 0;

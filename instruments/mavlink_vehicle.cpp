@@ -10,6 +10,7 @@
 #include "instruments/devices.h"
 #include "instruments/mavlink_decoder.h"
 #include "protocols/mavlink.h"
+#include "protocols/mavlink_signer.h"
 
 namespace navcal::instruments {
 
@@ -22,9 +23,18 @@ constexpr std::int64_t kAttitudeAge_ns = 100'000'000;
 class MavlinkVehicle final : public Instrument {
  public:
   explicit MavlinkVehicle(const config::PortSettings& settings)
-      : unit_(settings.inertial_unit - 1), barometer_(settings.pressure_sensor - 1) {}
+      : unit_(settings.inertial_unit - 1), barometer_(settings.pressure_sensor - 1) {
+    if (settings.signing_key) signer_.emplace(*settings.signing_key);
+  }
 
   Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
+    using Signature = protocols::mavlink::Signer::Verdict;
+    switch (signer_ ? signer_->check(frame.bytes) : Signature::good) {
+      case Signature::good: break;
+      case Signature::not_signed: return Verdict::unsigned_;
+      case Signature::wrong: return Verdict::forged;
+      case Signature::replayed: return Verdict::replayed;
+    }
     const auto message = protocols::mavlink::find_message(frame.bytes).message;
     auto verdict = Verdict::ignored;
     for (MavlinkReading reading : decoder_.read(message)) {
@@ -72,6 +82,7 @@ class MavlinkVehicle final : public Instrument {
   MavlinkDecoder decoder_;
   CompassSample tilt_;
   std::optional<std::int64_t> tilt_ns_;
+  std::optional<protocols::mavlink::Signer> signer_;
 };
 
 }  // namespace
@@ -86,7 +97,7 @@ namespace mavlink = protocols::mavlink;
 
 constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kParameter = 22;
 constexpr std::uint16_t kSetMessageInterval = 511;
-constexpr std::uint8_t kOurComponent = 197;
+constexpr std::uint8_t kOurComponent = 197, kOnboardController = 18;
 constexpr int kHeartbeatsOfRound = 30;  // heartbeats; then a ground station may have asked for other rates
 constexpr std::int64_t kAutopilotLost_ns = 5 * base::kSecond_ns;
 
@@ -99,6 +110,7 @@ class StartUpMavlink final : public StartUp {
     constexpr std::array<std::uint32_t, 3> kImu{27, 116, 129}, kPressure{29, 137, 143};
     constexpr std::uint32_t kOutputs = 36, kAttitude = 30, kBattery = 147, kGps = 24;
     const double rate_Hz = settings.rate_Hz > 0 ? settings.rate_Hz : 50;
+    if (settings.signing_key) signer_.emplace(*settings.signing_key);
     names_ = AutopilotCompass::names(unit_);
     imu_ = kImu.at(static_cast<std::size_t>(unit_));
     if (settings.inertial_unit == 1) requests_.push_back({kHighresImu, rate_Hz});
@@ -151,7 +163,11 @@ class StartUpMavlink final : public StartUp {
     }
   }
 
+  void sign(std::vector<std::uint8_t>& command) override {
+    if (signer_) signer_->sign(command);
+  }
   void on_any_frame(const protocols::Frame& frame) override {
+    if (signer_ && signer_->check(frame.bytes) != mavlink::Signer::Verdict::good) return;
     const mavlink::Message message = mavlink::find_message(frame.bytes).message;
     const mavlink::Payload payload(message.payload);
     if (message.component != mavlink::kAutopilot || (vehicle_ && *vehicle_ != message.system)) return;
@@ -172,10 +188,7 @@ class StartUpMavlink final : public StartUp {
     boot_ms_ = boot_ms;
   }
 
-  std::vector<std::uint8_t> heartbeat() {
-    constexpr std::array<std::uint8_t, 9> kOnboardController{0, 0, 0, 0, 18, 8, 0, 4, 3};
-    return mavlink::encode(kHeartbeat, {*vehicle_, kOurComponent, sequence_++}, kOnboardController);
-  }
+  std::vector<std::uint8_t> heartbeat() { return mavlink::encode_heartbeat(sender(), kOnboardController); }
   std::vector<std::uint8_t> interval(const Request& request) {
     std::array<std::uint8_t, 33> payload{};
     protocols::put_le(payload.data(), static_cast<float>(request.first));
@@ -183,12 +196,14 @@ class StartUpMavlink final : public StartUp {
     protocols::put_le(payload.data() + 28, kSetMessageInterval);
     payload[30] = *vehicle_;
     payload[31] = mavlink::kAutopilot;
-    return mavlink::encode(kCommand, {*vehicle_, kOurComponent, sequence_++}, payload);
+    return mavlink::encode(kCommand, sender(), payload);
   }
 
   std::vector<std::uint8_t> reading(const std::string& parameter) {
-    return mavlink::encode_reading({*vehicle_, kOurComponent, sequence_++}, *vehicle_, parameter);
+    return mavlink::encode_reading(sender(), *vehicle_, parameter);
   }
+
+  mavlink::Sender sender() { return {*vehicle_, kOurComponent, sequence_++}; }
 
   static constexpr int kNoAnswer = -1;
   std::vector<Request> requests_;
@@ -203,6 +218,7 @@ class StartUpMavlink final : public StartUp {
   std::uint8_t sequence_ = 0;
   int result_ = kNoAnswer;  ///< of the newest request
   bool restarted_ = false;
+  std::optional<mavlink::Signer> signer_;
 };
 
 }  // namespace

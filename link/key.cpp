@@ -54,37 +54,56 @@ bool SessionKey::verifies(Direction direction, Bytes covered, Bytes given) const
   return given.size() == right.size() && memeql_sec(given.data(), right.data(), right.size()) != 0;
 }
 
-std::variant<Key, std::string> Key::from_text(std::string_view text) {
+Key Key::from_text(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return "the key is empty";
+  if (first == std::string_view::npos) throw std::runtime_error("the key is empty");
   text = text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-  if (text.size() > kLongest) return fmt::format("the key is longer than {} characters", kLongest);
+  if (text.size() > kLongest)
+    throw std::runtime_error(fmt::format("the key is longer than {} characters", kLongest));
   if (text.size() == kDigits && std::all_of(text.begin(), text.end(), [](char c) { return value_of(c) >= 0; })) {
     std::string bytes;
     for (std::size_t i = 0; i < text.size(); i += 2)
       bytes.push_back(static_cast<char>(value_of(text[i]) << 4 | value_of(text[i + 1])));
-    return Key(std::move(bytes));
+    return Key(std::move(bytes), true);
   }
   if (text.size() < kShortest)
-    return fmt::format("the key has {} characters; it needs {} or more, or {} hexadecimal digits", text.size(),
-                       kShortest, kDigits);
-  return Key(std::string(text));
+    throw std::runtime_error(
+        fmt::format("the key has {} characters; it needs {} or more, or {} hexadecimal digits", text.size(),
+                    kShortest, kDigits));
+  return Key(std::string(text), false);
 }
 
-std::variant<Key, std::string> Key::from_file(const std::filesystem::path& file) {
+Key Key::from_file(const std::filesystem::path& file) {
+  const auto failed = [&](const std::string& why) { return std::runtime_error(file.string() + ": " + why); };
   struct stat info {};
-  if (::stat(file.c_str(), &info) != 0) return fmt::format("{}: {}", file.string(), std::strerror(errno));
-  if (!S_ISREG(info.st_mode)) return file.string() + ": not a file";
+  if (::stat(file.c_str(), &info) != 0) throw failed(std::strerror(errno));
+  if (!S_ISREG(info.st_mode)) throw failed("not a file");
   if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    return fmt::format("{}: others than its owner have access; chmod 600 ends that", file.string());
+    throw failed("others than its owner have access; chmod 600 ends that");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) return file.string() + ": cannot be read";
+  if (!stream) throw failed("cannot be read");
   std::string text(kLongest + 16, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  auto key = from_text(text);
-  if (const auto* problem = std::get_if<std::string>(&key)) return file.string() + ": " + *problem;
-  return key;
+  try {
+    return from_text(text);
+  } catch (const std::runtime_error& error) {
+    throw failed(error.what());
+  }
+}
+
+std::array<std::uint8_t, 32> Key::of_mavlink() const {
+  Digest digest{};
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes_.data());
+  if (is_digits_) {
+    std::copy_n(first, digest.size(), digest.begin());
+    return digest;
+  }
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, bytes_.size(), first);
+  sha256_digest(&context, digest.size(), digest.data());
+  return digest;
 }
 
 SessionKey Key::session(const Nonce& vehicle, const Nonce& host) const {

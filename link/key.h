@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include "link/frame.h"
 
@@ -34,10 +33,13 @@ class SessionKey {
 class Key {
  public:
   /// 64 hexadecimal digits are 32 bytes; any other text of at least 16 characters is taken as it stands. White
-  /// space around it does not count. Returns the key, or why the text is none.
-  [[nodiscard]] static std::variant<Key, std::string> from_text(std::string_view text);
-  /// Reads a file that nobody but its owner can read or write. Returns the key, or why not, with the file's name.
-  [[nodiscard]] static std::variant<Key, std::string> from_file(const std::filesystem::path& file);
+  /// space around it does not count. Throws std::runtime_error, which says why the text is none.
+  [[nodiscard]] static Key from_text(std::string_view text);
+  /// Reads a file that nobody but its owner can read or write. Throws std::runtime_error, with the file's name.
+  [[nodiscard]] static Key from_file(const std::filesystem::path& file);
+
+  /// For MAVLink: the 32 bytes of 64 digits, or the SHA-256 of another text, as ground stations make it.
+  [[nodiscard]] std::array<std::uint8_t, 32> of_mavlink() const;
 
   /// For the frames of a session, from the random numbers of both ends: a frame of another session never fits.
   [[nodiscard]] SessionKey session(const Nonce& vehicle, const Nonce& host) const;
@@ -45,8 +47,9 @@ class Key {
   [[nodiscard]] SessionKey outside() const { return session({}, {}); }
 
  private:
-  explicit Key(std::string bytes) : bytes_(std::move(bytes)) {}
+  explicit Key(std::string bytes, bool is_digits) : bytes_(std::move(bytes)), is_digits_(is_digits) {}
   std::string bytes_;
+  bool is_digits_;
 };
 
 /// Eight bytes from the kernel. Throws std::runtime_error when it gives none.

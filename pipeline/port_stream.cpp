@@ -82,6 +82,9 @@ void PortStream::on_frame(const protocols::Frame& frame) {
     case Verdict::ignored: statistics_.unused.add(frame.id); break;
     case Verdict::foreign: statistics_.unused.add(protocols::FrameId("other systems")); break;
     case Verdict::out_of_range: ++statistics_.out_of_range; break;
+    case Verdict::unsigned_: statistics_.unused.add(protocols::FrameId("not signed")); break;
+    case Verdict::forged: statistics_.unused.add(protocols::FrameId("wrong signature")); break;
+    case Verdict::replayed: statistics_.unused.add(protocols::FrameId("replayed")); break;
   }
 }
 

@@ -19,8 +19,9 @@ namespace ip = boost::asio::ip;
 using config::NetworkAddress;
 
 /// A peer that has lost its power says nothing. The system asks it after this silence, and gives up after that
-/// many questions: the connection ends after 25 s.
-constexpr int kKeepAliveIdle_s = 10, kKeepAliveInterval_s = 5, kKeepAliveProbes = 3;
+/// many questions: the connection ends after 25 s. So it does when the peer takes no bytes: what waits for it
+/// grows old in the system's buffer, which holds minutes of a slow stream.
+constexpr int kKeepAliveIdle_s = 10, kKeepAliveInterval_s = 5, kKeepAliveProbes = 3, kUntaken_ms = 25'000;
 
 ip::tcp::endpoint endpoint_of(const NetworkAddress& address) {
   return {ip::make_address(address.host == "localhost" ? "127.0.0.1" : address.host), address.port};
@@ -66,6 +67,7 @@ void set_up_stream(int socket) {
   set_option(socket, IPPROTO_TCP, TCP_KEEPIDLE, kKeepAliveIdle_s);
   set_option(socket, IPPROTO_TCP, TCP_KEEPINTVL, kKeepAliveInterval_s);
   set_option(socket, IPPROTO_TCP, TCP_KEEPCNT, kKeepAliveProbes);
+  set_option(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, kUntaken_ms);
 }
 
 /// TCP connections and datagrams alike.

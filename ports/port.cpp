@@ -78,6 +78,7 @@ struct Port::State : std::enable_shared_from_this<Port::State> {
   void write_soon();
   void write_some();
   void write_when_ready();
+  void drop_outgoing();
 
   config::PortSettings settings;
   PortListener& listener;
@@ -226,6 +227,11 @@ void Port::State::close() {
     door.cancel();
   }
   line.reset();
+  drop_outgoing();
+}
+
+void Port::State::drop_outgoing() {
+  if (!stopped && !outgoing.empty()) listener.on_dropped(outgoing);
   outgoing.clear();
 }
 
@@ -288,7 +294,7 @@ void Port::State::write_some() {
   const ssize_t taken = line->write(outgoing);
   if (taken < 0 && (errno == EAGAIN || errno == EINTR)) return write_when_ready();
   // After an error the reading side finds out what became of the port.
-  if (taken < 0) return outgoing.clear();
+  if (taken < 0) return drop_outgoing();
   const auto n = std::min(static_cast<std::size_t>(taken), outgoing.size());
   listener.on_sent(monotonic_ns(), protocols::Bytes(outgoing.data(), n));
   if (stopped) return;
@@ -301,7 +307,7 @@ void Port::State::write_when_ready() {
   descriptor.async_wait(asio::posix::stream_descriptor::wait_write,
                         [self = shared_from_this()](const boost::system::error_code& error) {
                           self->writing = false;
-                          if (error) return self->outgoing.clear();
+                          if (error) return self->drop_outgoing();
                           self->write_some();
                         });
 }
@@ -317,7 +323,11 @@ void Port::start() { asio::co_spawn(state_->timer.get_executor(), state_->run(st
 
 void Port::send(protocols::Bytes bytes) {
   State& state = *state_;
-  if (!state.line || state.outgoing.size() + bytes.size() > kSendBytes) return;
+  if (state.address && state.address->kind == config::NetworkAddress::Kind::udp) {
+    if (!send_now(bytes)) state.listener.on_dropped(bytes);
+    return;
+  }
+  if (!state.line || state.outgoing.size() + bytes.size() > kSendBytes) return state.listener.on_dropped(bytes);
   state.outgoing.insert(state.outgoing.end(), bytes.begin(), bytes.end());
   if (!state.writing) state.write_soon();
 }

@@ -32,6 +32,8 @@ class PortListener {
   virtual void on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) = 0;
   /// The bytes were handed to the driver.
   virtual void on_sent(std::int64_t now_ns, protocols::Bytes bytes) = 0;
+  /// Bytes of send() that the driver did not get and will not get.
+  virtual void on_dropped(protocols::Bytes /*bytes*/) {}
   /// The port is gone, or could not be opened; `reason` for people. Called once for each reason, not at every
   /// attempt.
   virtual void on_lost(std::int64_t now_ns, std::string_view reason) = 0;
@@ -50,8 +52,9 @@ class Port {
   /// Listens from now on, before start(), for the device that connects. Empty, or why it cannot.
   [[nodiscard]] std::string listen();
   void start();
-  /// Queues bytes for sending, at most 4 KiB. Bytes for which there is no room are dropped silently as a whole,
-  /// as are all bytes while the port is away.
+  /// Queues bytes for sending, at most 4 KiB. Bytes for which there is no room are dropped as a whole, as are all
+  /// bytes while the port is away. To a UDP port each call sends one datagram: peers have room for a message or a
+  /// few, and cut what is longer.
   void send(protocols::Bytes bytes);
   /// Writes a whole line at once: nothing waits before it, and the driver has taken all of it when this
   /// returns. Returns the time at which the driver had it. nullopt when the port is away, other bytes still

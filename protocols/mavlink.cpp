@@ -123,10 +123,18 @@ std::vector<std::uint8_t> encode(std::uint32_t id, Sender sender, Bytes payload)
   std::vector<std::uint8_t> frame{0xFD, length, 0, 0, sender.sequence, sender.system, sender.component};
   append_le(frame, static_cast<std::uint16_t>(id));
   frame.push_back(static_cast<std::uint8_t>(id >> 16));
-  const std::size_t head = frame.size();
   frame.insert(frame.end(), payload.begin(), payload.end());
-  append_le(frame, sum_of(frame, head, length, *message_of(id)));
+  append_checksum(frame, id);
   return frame;
+}
+
+void append_checksum(std::vector<std::uint8_t>& frame, std::uint32_t id) {
+  append_le(frame, sum_of(frame, frame.size() - frame[1], frame[1], *message_of(id)));
+}
+
+std::vector<std::uint8_t> encode_heartbeat(Sender sender, std::uint8_t type) {
+  constexpr std::uint8_t kActive = 4, kVersion = 3;
+  return encode(0, sender, packed_le(0U, type, kNoAutopilot, std::uint8_t{0}, kActive, kVersion));
 }
 
 Parameter parameter_of(const Message& parameter_value, bool is_bytewise) {

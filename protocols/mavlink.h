@@ -84,6 +84,10 @@ struct Sender {
 };
 /// A frame of version 2 without a signature. `id` must be known.
 [[nodiscard]] std::vector<std::uint8_t> encode(std::uint32_t id, Sender sender, Bytes payload);
+/// Appends the checksum to a frame of version 2 that ends with its payload.
+void append_checksum(std::vector<std::uint8_t>& frame, std::uint32_t id);
+/// `type`: 6 a ground station, 18 an onboard controller.
+[[nodiscard]] std::vector<std::uint8_t> encode_heartbeat(Sender sender, std::uint8_t type);
 
 /// A parameter of an autopilot. PX4 sends an integer as its four bytes (`is_bytewise`), ArduPilot as a float.
 struct Parameter {

@@ -63,6 +63,14 @@ void append_le(std::vector<std::uint8_t>& bytes, T value) {
   put_le(&bytes[bytes.size() - sizeof(T)], value);
 }
 
+/// Numbers one after the other, each with the least significant byte first.
+template <WireNumber... T>
+[[nodiscard]] std::vector<std::uint8_t> packed_le(T... values) {
+  std::vector<std::uint8_t> bytes;
+  (append_le(bytes, values), ...);
+  return bytes;
+}
+
 template <WireNumber T>
 void append_be(std::vector<std::uint8_t>& bytes, T value) {
   bytes.resize(bytes.size() + sizeof(T));

@@ -86,14 +86,19 @@ bool is_from_here(std::string_view from, std::string_view host, std::string_view
   return is_own_page && is_this_computer(from) && is_this_computer(name_of(host));
 }
 
-std::string read_token(const std::filesystem::path& file) {
+std::ifstream open_secret(const std::filesystem::path& file) {
   const auto failed = [&](const std::string& why) { return std::runtime_error(file.string() + ": " + why); };
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) throw failed(std::strerror(errno));
   if (!S_ISREG(status.st_mode)) throw failed("not a file");
   if ((status.st_mode & (S_IROTH | S_IWOTH)) != 0)
-    throw failed("everybody may read or write it; `chmod o-rw` keeps the token secret");
-  std::ifstream in(file);
+    throw failed("everybody may read or write it; `chmod o-rw` keeps it secret");
+  return std::ifstream(file);
+}
+
+std::string read_token(const std::filesystem::path& file) {
+  const auto failed = [&](const std::string& why) { return std::runtime_error(file.string() + ": " + why); };
+  std::ifstream in = open_secret(file);
   std::string token;
   if (!in || !std::getline(in, token)) throw failed("it cannot be read, or is empty");
   constexpr std::string_view kBlanks = " \t\r\n";

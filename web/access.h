@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,9 +40,10 @@ class Access {
 /// page of another name: a proxy in front shows the names under which others reach it.
 [[nodiscard]] bool is_from_here(std::string_view from, std::string_view host, std::string_view origin);
 
+/// Throws std::runtime_error, with the file's name, when it is none, or when everybody may read or write it.
+[[nodiscard]] std::ifstream open_secret(const std::filesystem::path& file);
 /// The first line of a token file, without the blanks around it. Throws std::runtime_error, with the file's name,
-/// when it cannot be read, when the token is shorter than 16 characters, or when others than its owner and group
-/// may read it.
+/// when it cannot be read, as above, or when the token is shorter than 16 characters.
 [[nodiscard]] std::string read_token(const std::filesystem::path& file);
 
 }  // namespace navcal::web

@@ -17,6 +17,7 @@
 #include "base/spawn.h"
 #include "base/temporary_folder.h"
 #include "ports/pseudo_terminal.h"
+#include "record/json/json_members.h"
 #include "web/http.h"
 
 namespace navcal::web {
@@ -122,8 +123,7 @@ class AuditPeer final : public Peer {
     if (line_ == "[K") line_.clear();  // of an escape sequence, which clears the line
     if (is_letter || line_.empty()) return;
     said_ = std::exchange(line_, {});
-    link_.send_text(
-        nlohmann::json{{"progress", said_}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    link_.send_text(record::json_text({{"progress", said_}}));
   }
   void finish() {
     using Bytes = std::istreambuf_iterator<char>;
@@ -163,13 +163,11 @@ class AuditPeer final : public Peer {
 }  // namespace
 
 WebSocketEndpoint audit_endpoint(const asio::any_io_executor& executor) {
-  WebSocketEndpoint endpoint;
-  endpoint.path = "/audit";
-  endpoint.make_peer = [executor, last_turn = std::make_shared<std::weak_ptr<const char>>()](
+  return {.path = "/audit",
+          .make_peer = [executor, last_turn = std::make_shared<std::weak_ptr<const char>>()](
                            PeerLink& link, std::string_view) -> std::unique_ptr<Peer> {
-    return std::make_unique<AuditPeer>(executor, link, *last_turn);
-  };
-  return endpoint;
+            return std::make_unique<AuditPeer>(executor, link, *last_turn);
+          }};
 }
 
 }  // namespace navcal::web

@@ -143,13 +143,11 @@ class ControlPeer final : public Peer {
 
 WebSocketEndpoint control_endpoint(const asio::any_io_executor& executor, std::string path,
                                    std::filesystem::path control_socket, const Access& access) {
-  WebSocketEndpoint endpoint;
-  endpoint.path = std::move(path);
-  endpoint.make_peer = [executor, control_socket = std::move(control_socket), &access](
+  return {.path = std::move(path),
+          .make_peer = [executor, control_socket = std::move(control_socket), &access](
                            PeerLink& link, std::string_view) -> std::unique_ptr<Peer> {
-    return std::make_unique<ControlPeer>(executor, link, control_socket, access);
-  };
-  return endpoint;
+            return std::make_unique<ControlPeer>(executor, link, control_socket, access);
+          }};
 }
 
 }  // namespace navcal::web

@@ -2,7 +2,8 @@
 #include "web/http.h"
 
 #include <boost/beast/http/field.hpp>
-#include <nlohmann/json.hpp>
+
+#include "record/json/json_members.h"
 
 namespace navcal::web {
 namespace http = boost::beast::http;
@@ -72,10 +73,13 @@ Response respond_json(http::status status, std::string body) {
   return respond(status, "application/json", std::move(body));
 }
 
-std::string refusal(std::string_view why) {
-  const nlohmann::ordered_json answer{{"ok", false}, {"error", why}};
-  return answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+Handler json_handler(std::string body) {
+  return [body = std::move(body)](const Request&) -> boost::asio::awaitable<Response> {
+    co_return respond_json(http::status::ok, body);
+  };
 }
+
+std::string refusal(std::string_view why) { return record::json_text({{"ok", false}, {"error", why}}); }
 
 Response refuse(http::status status, std::string_view why) { return respond_json(status, refusal(why) + "\n"); }
 

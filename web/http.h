@@ -29,6 +29,8 @@ using Handler = std::function<boost::asio::awaitable<Response>(const Request&)>;
 /// A whole answer. It forbids what a page of navcal never needs: other sites' scripts, and guesses of the type.
 [[nodiscard]] Response respond(boost::beast::http::status status, std::string_view content_type, std::string body);
 [[nodiscard]] Response respond_json(boost::beast::http::status status, std::string body);
+/// Answers every request with this JSON.
+[[nodiscard]] Handler json_handler(std::string body);
 /// `{"ok":false,"error":why}`, as navcald's control socket refuses.
 [[nodiscard]] std::string refusal(std::string_view why);
 [[nodiscard]] Response refuse(boost::beast::http::status status, std::string_view why);

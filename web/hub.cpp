@@ -6,15 +6,6 @@
 namespace navcal::web {
 namespace {
 
-/// Copies the pointers: a subscriber may add or remove others while it is called.
-template <class Map>
-std::vector<Subscriber*> pointers(const Map& subscribers) {
-  std::vector<Subscriber*> found;
-  found.reserve(subscribers.size());
-  for (const auto& [subscriber, demand] : subscribers) found.push_back(subscriber);
-  return found;
-}
-
 /// Bound of what is kept: more devices than this do not fit a vehicle, but a broken peer may name them.
 constexpr std::size_t kMaxKept = 1024;
 
@@ -25,6 +16,16 @@ std::optional<double> higher_rate(std::optional<double> a, std::optional<double>
 
 }  // namespace
 
+/// By a copy of the pointers: a subscriber may add or remove others while it is called.
+template <class Call>
+void Hub::tell(Call call) {
+  std::vector<Subscriber*> each;
+  for (const auto& [subscriber, demand] : subscribers_) each.push_back(subscriber);
+  for (Subscriber* subscriber : each) {
+    if (subscribers_.contains(subscriber)) call(*subscriber);
+  }
+}
+
 void Hub::publish(const Record& record) {
   ++published_;
   const std::pair key{std::string(record.topic), std::string(record.device)};
@@ -33,30 +34,22 @@ void Hub::publish(const Record& record) {
     kept.utc_ns = record.utc_ns;
     kept.message.assign(record.message);
   }
-  for (Subscriber* subscriber : pointers(subscribers_)) {
-    if (subscribers_.contains(subscriber)) subscriber->on_record(record);
-  }
+  tell([&](Subscriber& subscriber) { subscriber.on_record(record); });
 }
 
 void Hub::set_link(Link link) {
   link_ = std::move(link);
-  for (Subscriber* subscriber : pointers(subscribers_)) {
-    if (subscribers_.contains(subscriber)) subscriber->on_link(link_);
-  }
+  tell([this](Subscriber& subscriber) { subscriber.on_link(link_); });
 }
 
 void Hub::set_topics(std::vector<Topic> topics) {
   topics_ = std::move(topics);
-  for (Subscriber* subscriber : pointers(subscribers_)) {
-    if (subscribers_.contains(subscriber)) subscriber->on_topics();
-  }
+  tell([](Subscriber& subscriber) { subscriber.on_topics(); });
 }
 
 void Hub::forget() {
   newest_.clear();
-  for (Subscriber* subscriber : pointers(subscribers_)) {
-    if (subscribers_.contains(subscriber)) subscriber->on_forget();
-  }
+  tell([](Subscriber& subscriber) { subscriber.on_forget(); });
 }
 
 void Hub::add(Subscriber& subscriber, Demand demand) {
@@ -99,9 +92,9 @@ Demand Hub::demand() const {
   return all;
 }
 
-void Hub::repeat_newest(Subscriber& subscriber) const {
+void Hub::repeat_newest(const std::function<void(const Record&)>& take) const {
   for (const auto& [key, kept] : newest_) {
-    subscriber.on_record({key.first, key.second, kept.utc_ns, kept.message});
+    take({key.first, key.second, kept.utc_ns, kept.message});
   }
 }
 

@@ -78,8 +78,8 @@ class Hub {
   /// What all subscribers need together: each topic at the highest rate that one of them needs.
   [[nodiscard]] Demand demand() const;
   void on_demand(OnDemand on_demand) { on_demand_ = std::move(on_demand); }
-  /// Hands the newest record of each topic and device to `subscriber`.
-  void repeat_newest(Subscriber& subscriber) const;
+  /// Hands out the newest record of each topic and device.
+  void repeat_newest(const std::function<void(const Record&)>& take) const;
   [[nodiscard]] std::uint64_t published() const { return published_; }
 
  private:
@@ -87,6 +87,8 @@ class Hub {
     std::optional<std::int64_t> utc_ns;
     std::string message;
   };
+  template <class Call>
+  void tell(Call call);
   void tell_demand();
 
   std::map<Subscriber*, Demand> subscribers_;

@@ -42,11 +42,10 @@ std::string watch_request(const Demand& demand) {
 }  // namespace
 
 LiveSource::LiveSource(const asio::any_io_executor& executor, Settings settings, Hub& hub)
-    : settings_(std::move(settings)), hub_(hub), socket_(executor), pause_(executor), silence_(executor),
-      wake_(executor) {}
+    : settings_(std::move(settings)), hub_(hub), socket_(executor), pause_(executor), silence_(executor) {}
 
 void LiveSource::start() {
-  hub_.on_demand([this](const Demand&) { wake_.cancel(); });
+  hub_.on_demand([this](const Demand&) { ask(); });
   asio::co_spawn(
       socket_.get_executor(), [self = shared_from_this()] { return self->run(); }, asio::detached);
 }
@@ -58,7 +57,6 @@ void LiveSource::stop() {
   socket_.close(ignored);
   pause_.cancel();
   silence_.cancel();
-  wake_.cancel();
 }
 
 asio::awaitable<void> LiveSource::run() {
@@ -66,16 +64,14 @@ asio::awaitable<void> LiveSource::run() {
     std::string problem = co_await connect();
     if (problem.empty()) {
       ++counters_.connections;
-      hub_.set_link({true, ""});
       asked_.clear();
       is_answer_due_ = false;
       topics_.clear();
-      asio::co_spawn(
-          socket_.get_executor(), [self = shared_from_this()] { return self->write_requests(); }, asio::detached);
+      hub_.set_link({true, ""});
+      ask();
       problem = co_await read_lines();
       boost::system::error_code ignored;
       socket_.close(ignored);
-      wake_.cancel();
     }
     if (stopped_) co_return;
     hub_.set_link({false, std::move(problem)});
@@ -126,22 +122,15 @@ asio::awaitable<std::string> LiveSource::read_lines() {
   }
 }
 
-asio::awaitable<void> LiveSource::write_requests() {
-  const std::string records = "?RECORDS;\n";
-  const auto [unsent, sent] = co_await asio::async_write(socket_, asio::buffer(records), kNoThrow);
-  if (unsent) co_return;
-  while (socket_.is_open()) {
-    std::string wanted = watch_request(hub_.demand());
-    if (is_answer_due_ || wanted == asked_) {
-      wake_.expires_after(kSilence);
-      co_await wake_.async_wait(kNoThrow);
-      continue;
-    }
-    asked_ = std::move(wanted);
-    is_answer_due_ = true;
-    const auto [error, n] = co_await asio::async_write(socket_, asio::buffer(asked_), kNoThrow);
-    if (error) co_return;
-  }
+void LiveSource::ask() {
+  std::string wanted = watch_request(hub_.demand());
+  if (!hub_.link().connected || is_answer_due_ || wanted == asked_) return;
+  request_ = (asked_.empty() ? "?RECORDS;\n" : "") + wanted;
+  asked_ = std::move(wanted);
+  is_answer_due_ = true;
+  // A failure ends the reading.
+  asio::async_write(socket_, asio::buffer(request_),
+                    [self = shared_from_this()](boost::system::error_code, std::size_t) {});
 }
 
 void LiveSource::take(std::string_view line) {
@@ -155,10 +144,10 @@ void LiveSource::take(std::string_view line) {
     hub_.set_link({true, "navcald: " + std::string(line)});
     ++counters_.not_understood;
     is_answer_due_ = false;
-    wake_.cancel();
+    ask();
   } else if (line.starts_with(R"({"class":"WATCH")")) {
     is_answer_due_ = false;
-    wake_.cancel();
+    ask();
   } else if (!line.empty() && !line.starts_with(R"({"class":")")) {
     ++counters_.not_understood;
   }

@@ -39,7 +39,8 @@ class LiveSource : public std::enable_shared_from_this<LiveSource> {
   boost::asio::awaitable<void> run();
   boost::asio::awaitable<std::string> connect();
   boost::asio::awaitable<std::string> read_lines();
-  boost::asio::awaitable<void> write_requests();
+  /// Asks for what the subscribers need, if that has changed.
+  void ask();
   void take(std::string_view line);
   void take_topics(std::string_view line);
   void take_health(std::string_view line);
@@ -49,8 +50,7 @@ class LiveSource : public std::enable_shared_from_this<LiveSource> {
   boost::asio::ip::tcp::socket socket_;
   boost::asio::steady_timer pause_;
   boost::asio::steady_timer silence_;  ///< expires when navcald has said nothing for too long
-  boost::asio::steady_timer wake_;     ///< cancelled when there may be something to ask
-  std::string asked_;                  ///< the policy in force, so that it is not sent twice
+  std::string asked_, request_;  ///< the policy in force, so that it is not sent twice; with what is before it
   bool is_answer_due_ =
       false;  ///< to the policy: a viewer that subscribes to twenty topics needs one more, not twenty
   std::vector<Topic> topics_;

@@ -17,6 +17,7 @@
 
 #include "ports/no_throw.h"
 #include "record/json/base64.h"
+#include "record/json/json_members.h"
 #include "record/log/message_crc.h"
 #include "web/message_fields.h"
 
@@ -46,10 +47,8 @@ constexpr std::string_view kEnd = R"(,"crc":")";
 /// One connection to navcald. Throws std::runtime_error with the reason in words.
 class Connection {
  public:
-  explicit Connection(const asio::any_io_executor& executor)
-      : socket_(std::make_shared<asio::local::stream_protocol::socket>(executor)), limit_(executor) {}
-
-  void open(const std::filesystem::path& path, std::chrono::seconds limit) {
+  Connection(const asio::any_io_executor& executor, const std::filesystem::path& path, std::chrono::seconds limit)
+      : socket_(std::make_shared<asio::local::stream_protocol::socket>(executor)), limit_(executor) {
     boost::system::error_code error;
     socket_->connect(asio::local::stream_protocol::endpoint(path.string()), error);
     if (error) throw std::runtime_error("navcald's control socket " + path.string() + ": " + error.message());
@@ -189,16 +188,14 @@ asio::awaitable<LogHistory::Text> LogHistory::read() {
   std::vector<std::string> pieces;
   nlohmann::json problem;
   try {
-    Connection navcald(done_.get_executor());
-    navcald.open(control_socket_, limit_);
+    Connection navcald(done_.get_executor(), control_socket_, limit_);
     co_await read_pieces(navcald, pieces);
   } catch (const std::exception& error) {
     problem = error.what();
   }
   std::reverse(pieces.begin(), pieces.end());
   co_return std::make_shared<const std::string>(
-      fmt::format(R"({{"problem":{},"records":[{}]}})",
-                  problem.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), fmt::join(pieces, ",")));
+      fmt::format(R"({{"problem":{},"records":[{}]}})", record::json_text(problem), fmt::join(pieces, ",")));
 }
 
 void add_history(Site& site, LogHistory& history) {

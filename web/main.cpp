@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/interruptible.h"
@@ -18,6 +19,7 @@
 #include "web/listener.h"
 #include "web/live_source.h"
 #include "web/log_history.h"
+#include "web/outlets/mavlink.h"
 #include "web/outlets/mqtt_topics.h"
 #include "web/outlets/outlet_options.h"
 #include "web/outlets/outlets.h"
@@ -66,12 +68,38 @@ void add_outlet_options(CLI::App& app, web::OutletOptions& options) {
                  "hands UTC from GPS to chronyd on this machine: path of the socket of its refclock SOCK");
 }
 
+void add_mavlink_options(CLI::App& app, web::MavlinkOptions& options) {
+  app.add_option("--mavlink", options.address,
+                 "sends to an autopilot or ground station: udp:ADDRESS:PORT (to whom sends there), tcp:HOST:PORT, "
+                 "tcp-listen:ADDRESS:PORT or the path of a serial port")
+      ->check(CLI::Validator(web::problem_of_mavlink_address, "ADDRESS"));
+  const auto add = [&app](const char* name, auto& value, auto least, auto most, const char* help) {
+    return app.add_option(name, value, help)->check(CLI::Range(least, most))->capture_default_str();
+  };
+  add("--mavlink-baud", options.baud, 50, 4'000'000, "speed of that serial port");
+  app.add_option("--mavlink-odometry-rate", options.odometry_Hz, "ODOMETRY a second: 10 to 20, or 0 for none")
+      ->check(CLI::Range(10.0, 20.0) | CLI::Range(0.0, 0.0))
+      ->capture_default_str();
+  add("--mavlink-gps-rate", options.gps_Hz, 0.0, 20.0, "GPS_INPUT a second, at most");
+  add("--mavlink-values-rate", options.values_Hz, 0.0, 20.0, "NAMED_VALUE_FLOAT a second of each figure, at most");
+  app.add_flag("--mavlink-texts,!--no-mavlink-texts", options.has_texts, "events as STATUSTEXT (the default)");
+  add("--mavlink-system", options.system, 1, 255, "system as which navcal-web sends: that of the vehicle");
+  add("--mavlink-component", options.component, 1, 255, "component of it");
+  add("--mavlink-tilt-std", options.tilt_std_deg, 0.0, 90.0,
+      "standard error of roll and pitch in degrees; 0: unknown, and ODOMETRY has no covariance");
+  app.add_option(
+      "--mavlink-key-file", options.key_file,
+      "file with the key of the signatures: 64 hexadecimal digits, or the text that the ground station was given");
+}
+
 /// Throws CLI::ValidationError for options that do not fit `status`, where navcald is.
 void check_outlet_options(const web::OutletOptions& options, std::string_view status) {
   const auto host = status.substr(0, status.rfind(':'));
   const bool is_here = host.empty() || host == "localhost" || host == "[::1]" || host.starts_with("127.");
-  if (!options.chrony_socket.empty() && !is_here)
-    throw CLI::ValidationError("--chrony", "needs a navcald on this machine, by the clock of which it measures");
+  for (const auto& [name, value] :
+       {std::pair("--chrony", &options.chrony_socket), std::pair("--mavlink", &options.mavlink.address)})
+    if (!value->empty() && !is_here)
+      throw CLI::ValidationError(name, "needs a navcald on this machine, by the clock of which it measures");
 }
 
 void add_options(CLI::App& app, Options& options) {
@@ -98,6 +126,7 @@ void add_options(CLI::App& app, Options& options) {
                  "simulated track for the page: CSV with columns x and y, or lat and lon")
       ->check(CLI::ExistingFile);
   add_outlet_options(app, options.outlets);
+  add_mavlink_options(app, options.outlets.mavlink);
   app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
 }
 

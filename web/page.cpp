@@ -98,12 +98,6 @@ Handler file_handler(const PageFile& file) {
   };
 }
 
-Handler text_handler(std::shared_ptr<const std::string> json) {
-  return [json = std::move(json)](const Request&) -> asio::awaitable<Response> {
-    co_return respond_json(http::status::ok, *json);
-  };
-}
-
 }  // namespace
 
 std::shared_ptr<PageFeed> add_page(Site& site, const asio::any_io_executor& executor, Hub& hub,
@@ -113,8 +107,7 @@ std::shared_ptr<PageFeed> add_page(Site& site, const asio::any_io_executor& exec
     if (file.name == "index.html") site.add("GET", "/", file_handler(file));
   }
   settings.has_track = !track.empty();
-  if (settings.has_track)
-    site.add("GET", "/track.json", text_handler(std::make_shared<const std::string>(read_simulated_track(track))));
+  if (settings.has_track) site.add("GET", "/track.json", json_handler(read_simulated_track(track)));
   const auto feed = std::make_shared<PageFeed>(executor, hub, std::move(settings));
   const std::weak_ptr<PageFeed> weak = feed;
   site.add("GET", "/live.json", [weak](const Request&) -> asio::awaitable<Response> {
@@ -122,10 +115,9 @@ std::shared_ptr<PageFeed> add_page(Site& site, const asio::any_io_executor& exec
     if (!living) co_return refuse(http::status::service_unavailable, "the server stops");
     co_return respond_json(http::status::ok, *living->snapshot());
   });
-  WebSocketEndpoint live;
-  live.path = "/live";
-  live.make_peer = [weak](PeerLink& link, std::string_view) { return PageFeed::make_viewer(weak.lock(), link); };
-  site.add(std::move(live));
+  site.add({.path = "/live", .make_peer = [weak](PeerLink& link, std::string_view) {
+              return PageFeed::make_viewer(weak.lock(), link);
+            }});
   site.add(audit_endpoint(executor));
   return feed;
 }

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "record/json/json_members.h"
 #include "web/message_fields.h"
 
 namespace navcal::web {
@@ -193,12 +194,9 @@ Demand demand_at(double rate_Hz) {
   return demand;
 }
 
-std::string json_string(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string link_json(const Link& link) {
-  return fmt::format(R"({{"connected":{},"problem":{}}})", link.connected, json_string(link.problem));
+  return fmt::format(R"({{"connected":{},"problem":{}}})", link.connected,
+                     record::json_text(nlohmann::json(link.problem)));
 }
 
 }  // namespace
@@ -286,9 +284,10 @@ void PageFeed::append_state(std::string& out) const {
 }
 
 std::string PageFeed::whole() const {
-  std::string text = fmt::format(
-      R"({{"kind":"snapshot","version":{},"can_change":{},"has_track":{},"recording":{},)",
-      json_string(settings_.version), settings_.can_change, settings_.has_track, settings_.player != nullptr);
+  std::string text =
+      fmt::format(R"({{"kind":"snapshot","version":{},"can_change":{},"has_track":{},"recording":{},)",
+                  record::json_text(nlohmann::json(settings_.version)), settings_.can_change, settings_.has_track,
+                  settings_.player != nullptr);
   append_state(text);
   text += ',';
   state_.append_all(text, std::chrono::steady_clock::now());

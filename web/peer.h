@@ -50,10 +50,10 @@ class Peer {
 /// offers one, serves it; an endpoint without subprotocols serves clients that offer none.
 struct WebSocketEndpoint {
   std::string path;
-  std::vector<std::string> subprotocols;
+  std::vector<std::string> subprotocols{};
   /// Sites whose pages may connect, besides those that Access knows.
   std::vector<std::string> origins{};
-  std::function<std::unique_ptr<Peer>(PeerLink&, std::string_view target)> make_peer;
+  std::function<std::unique_ptr<Peer>(PeerLink&, std::string_view target)> make_peer{};
 };
 
 }  // namespace navcal::web

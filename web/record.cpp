@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/record.h"
 
-#include <charconv>
+#include "record/json/mapping_json.h"
 
 namespace navcal::web {
 namespace {
 
 constexpr std::string_view kHead = R"({"class":"RECORD","topic":")";
-constexpr std::int64_t kNanoseconds = 1'000'000'000;
 
 /// Takes `expected` from the front of `text`; false when something else stands there.
 bool take(std::string_view& text, std::string_view expected) {
@@ -25,25 +24,6 @@ std::optional<std::string_view> take_name(std::string_view& text) {
   return name;
 }
 
-/// Takes seconds with up to nine decimals as nanoseconds: a double would lose the last digits.
-std::optional<std::int64_t> take_seconds(std::string_view& text) {
-  std::int64_t seconds = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-  // Later than the year 2262 has no nanoseconds of 64 bits.
-  if (error != std::errc() || seconds < 0 || seconds > 9'000'000'000) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  std::int64_t fraction = 0;
-  if (take(text, ".")) {
-    std::int64_t digit = kNanoseconds / 10;
-    while (!text.empty() && text.front() >= '0' && text.front() <= '9') {
-      fraction += (text.front() - '0') * digit;
-      digit /= 10;
-      text.remove_prefix(1);
-    }
-  }
-  return seconds * kNanoseconds + fraction;
-}
-
 }  // namespace
 
 std::optional<Record> read_record(std::string_view line) {
@@ -58,8 +38,10 @@ std::optional<Record> read_record(std::string_view line) {
     record.device = *device;
   }
   if (take(line, R"(,"time":)") && !take(line, "null")) {
-    record.utc_ns = take_seconds(line);
-    if (!record.utc_ns) return std::nullopt;
+    const std::string_view seconds = line.substr(0, line.find(','));
+    record.utc_ns = record::nanoseconds(seconds);
+    if (!record.utc_ns || *record.utc_ns < 0) return std::nullopt;
+    line.remove_prefix(seconds.size());
   }
   if (!take(line, R"(,"message":)") || line.size() < 3 || line.front() != '{') return std::nullopt;
   while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);

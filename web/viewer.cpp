@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/interruptible.h"
+#include "record/json/json_members.h"
 #include "record/json/mapping_json.h"
 #include "record/log/log_reader.h"
 #include "record/recording.h"
@@ -195,8 +196,8 @@ double RecordedSource::duration_s() const {
 void RecordedSource::append_state(std::string& out) const {
   fmt::format_to(std::back_inserter(out),
                  R"({{"file":{},"playing":{},"speed":{},"position_s":{:.3f},"duration_s":{:.3f},"begin":{:.3f}}})",
-                 nlohmann::json(name_).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), playing_,
-                 speed_, position_s(), duration_s(), static_cast<double>(log_.entries().front().time_ns) * 1e-9);
+                 record::json_text(nlohmann::json(name_)), playing_, speed_, position_s(), duration_s(),
+                 static_cast<double>(log_.entries().front().time_ns) * 1e-9);
 }
 
 void view_recording(const ViewerSettings& settings) {

@@ -20,17 +20,6 @@ std::optional<double> angle(const nlohmann::json& object, const char* key) {
   return degrees ? std::optional(*degrees * base::kRadiansPerDegree) : std::nullopt;
 }
 
-std::optional<Eigen::Vector3d> vector(const nlohmann::json& object, const char* key) {
-  const nlohmann::json& value = member_of(object, key);
-  if (!value.is_array() || value.size() != 3) return std::nullopt;
-  Eigen::Vector3d all;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!value[i].is_number()) return std::nullopt;
-    all[static_cast<Eigen::Index>(i)] = value[i].get<double>();
-  }
-  return all;
-}
-
 constexpr std::string_view kStateRequest =
     "?WATCH={\"enable\":true,\"json\":true,\"classes\":[\"STATE\"],\"rate_Hz\":{\"STATE\":10}};\n";
 /// Share of a lease's time-out for which an answer is awaited: an answer that comes later is no use, because the
@@ -51,7 +40,8 @@ std::optional<StateLine> parse_state(std::string_view line) {
   reading.heading_rad = number_in(report, "heading_rad");
   reading.pitch_rad = number_in(report, "pitch_rad");
   reading.roll_rad = number_in(report, "roll_rad");
-  reading.rate_rad_s = vector(report, "rate_rad_s");
+  if (const auto rate = record::vector_in(report, "rate_rad_s"))
+    reading.rate_rad_s = Eigen::Vector3d(rate->data());
   reading.depth_m = number_in(report, "depth_m");
   reading.altitude_m = number_in(report, "altitude_m");
   reading.latitude_rad = angle(report, "lat");

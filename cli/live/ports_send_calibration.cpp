@@ -86,14 +86,14 @@ class AutopilotLink : private ports::PortListener {
   /// False when `done` does not hold within the limit.
   template <class Done>
   bool serve_until(milliseconds limit, Done done) {
-    constexpr std::array<std::uint8_t, 9> kGroundStation{0, 0, 0, 0, 6, mavlink::kNoAutopilot, 0, 4, 3};
+    constexpr std::uint8_t kGroundStation = 6;
     const auto end = Clock::now() + limit;
     for (; !done(); io_.run_one_for(milliseconds(20))) {
       if (Interruptible::interrupted()) refuse_to_write("interrupted");
       if (Clock::now() >= end) return false;
       if (Clock::now() < heartbeat_due_) continue;
       heartbeat_due_ = Clock::now() + std::chrono::seconds(1);
-      port_.send(mavlink::encode(0, sender(), kGroundStation));
+      port_.send(mavlink::encode_heartbeat(sender(), kGroundStation));
     }
     return true;
   }

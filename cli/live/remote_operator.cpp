@@ -77,9 +77,7 @@ link::EndOptions end_of_operator(const RemoteOperator::Options& options) {
   link::EndOptions end;
   end.budget_B_s = options.budget_B_s;
   if (options.key_file.empty()) return end;
-  auto key = link::Key::from_file(options.key_file);
-  if (const auto* problem = std::get_if<std::string>(&key)) throw std::runtime_error(*problem);
-  end.key = std::get<link::Key>(std::move(key));
+  end.key = link::Key::from_file(options.key_file);
   return end;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -30,6 +31,25 @@ template <class Json>
 [[nodiscard]] std::string text_in(const Json& object, const char* key) {
   const Json& member = member_of(object, key);
   return member.is_string() ? member.template get<std::string>() : std::string();
+}
+
+/// Nullopt when the member is absent or no list of three finite numbers.
+template <class Json>
+[[nodiscard]] std::optional<std::array<double, 3>> vector_in(const Json& object, const char* key) {
+  const Json& member = member_of(object, key);
+  if (!member.is_array() || member.size() != 3) return std::nullopt;
+  std::array<double, 3> all{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    all[i] = member[i].is_number() ? member[i].template get<double>() : std::nan("");
+    if (!std::isfinite(all[i])) return std::nullopt;
+  }
+  return all;
+}
+
+/// One line, with U+FFFD in place of what is no UTF-8.
+template <class Json = nlohmann::ordered_json>
+[[nodiscard]] std::string json_text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace navcal::record

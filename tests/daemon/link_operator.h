@@ -30,7 +30,7 @@ inline std::int64_t remote_now_ns() {
 
 inline link::EndOptions remote_options(std::string_view key) {
   link::EndOptions options;
-  if (!key.empty()) options.key = std::get<link::Key>(link::Key::from_text(key));
+  if (!key.empty()) options.key = link::Key::from_text(key);
   return options;
 }
 

@@ -2,6 +2,7 @@
 // Any bytes from an autopilot, and one frame that is always whole.
 #include "protocols/mavlink.h"
 
+#include "protocols/mavlink_signer.h"
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
@@ -20,8 +21,13 @@ void decode(const navcal::protocols::Frame& frame) {
 NAVCAL_FUZZ(mavlink) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<mavlink::Scanner>({data, size}, decode);
-  const auto frame = mavlink::encode(30, {1, 1, 0}, Bytes(data, std::min<std::size_t>(size, 255)));
+  auto frame = mavlink::encode(30, {1, 1, 0}, Bytes(data, std::min<std::size_t>(size, 255)));
   navcal::fuzz::check_stream<mavlink::Scanner>(frame, decode);
+  mavlink::Signer ours({}), theirs({});
+  static_cast<void>(theirs.check({data, size}));
+  ours.sign(frame);
+  navcal::fuzz::check_stream<mavlink::Scanner>(frame, decode);
+  navcal::fuzz::require(mavlink::Signer({}).check(frame) == mavlink::Signer::Verdict::good);
   return 0;
 }
 

@@ -4,6 +4,7 @@
 #include "config/load.h"
 #include "instruments/autopilot_compass.h"
 #include "protocols/mavlink.h"
+#include "protocols/mavlink_signer.h"
 #include "tests/instruments/collector.h"
 #include "tests/instruments/dialogue.h"
 
@@ -182,6 +183,34 @@ TEST_F(Vehicle, AnotherComponentHasAClockOfItsOwn) {
   EXPECT_EQ(send(132, distance, 1, 1), Verdict::ignored) << "the autopilot tells it again";
 }
 
+constexpr std::array<std::uint8_t, 32> kSigningKey{1, 2, 3};
+
+std::vector<std::uint8_t> signed_by(mavlink::Signer& signer, std::vector<std::uint8_t> frame) {
+  signer.sign(frame);
+  return frame;
+}
+
+TEST(SignedVehicle, WithAKeyOnlyGoodSignaturesCount) {
+  auto settings = port();
+  settings.signing_key = kSigningKey;
+  const auto instrument = make_instrument(settings);
+  Collector collector{*instrument};
+  mavlink::Signer signer{kSigningKey};
+  const auto say = [&](const std::vector<std::uint8_t>& frame) {
+    collector.feed<mavlink::Parser>(frame);
+    return collector.verdicts.back();
+  };
+  const auto beat = Fields{}.put(std::uint32_t{0}).put(std::uint8_t{12}).put(std::uint8_t{3});
+  const auto angles = Fields{}.put(1000U).put(0.125F).put(-0.25F).put(1.5F);
+  EXPECT_EQ(say(mavlink::encode(0, {1, 1, 0}, beat.bytes)), Verdict::unsigned_);
+  EXPECT_EQ(say(signed_by(signer, mavlink::encode(0, {1, 1, 0}, beat.bytes))), Verdict::ignored);
+  auto attitude = signed_by(signer, mavlink::encode(30, {1, 1, 0}, angles.bytes));
+  EXPECT_EQ(say(attitude), Verdict::used);
+  EXPECT_EQ(say(attitude), Verdict::replayed);
+  attitude.back() ^= 1U;
+  EXPECT_EQ(say(attitude), Verdict::forged);
+}
+
 /// An autopilot that accepts what it can.
 struct FakeAutopilot {
   bool has_high_resolution = true, is_deaf = false, knows_calibration = true;
@@ -231,6 +260,27 @@ struct MavlinkDialogue : testing::Test {
     }
   }
 };
+
+TEST(MavlinkDialogueSigned, SignsWhatItSaysAndHearsOnlyTheSigned) {
+  auto settings = port();
+  settings.signing_key = kSigningKey;
+  mavlink::Signer autopilot(kSigningKey);
+  int heartbeats = 0;
+  test::Dialogue dialogue(make_start_up(settings), [&](test::Dialogue&, const std::string& text) {
+    const protocols::Bytes frame(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    EXPECT_EQ(autopilot.check(frame), mavlink::Signer::Verdict::good);
+    if (mavlink::find_message(frame).message.id == 0) ++heartbeats;
+  });
+  const auto beat = Fields{}.put(std::uint32_t{0}).put(std::uint8_t{12}).put(std::uint8_t{3});
+  dialogue.begin();
+  FakeAutopilot::say(dialogue, 0, beat);
+  dialogue.run_for(3 * base::kSecond_ns);
+  EXPECT_TRUE(dialogue.sent.empty()) << "a heartbeat without a signature";
+  const auto frame = signed_by(autopilot, mavlink::encode(0, {1, 1, 0}, beat.bytes));
+  dialogue.answer("HEARTBEAT", {frame.begin(), frame.end()});
+  dialogue.run_for(3 * base::kSecond_ns);
+  EXPECT_GT(heartbeats, 0);
+}
 
 TEST_F(MavlinkDialogue, WaitsForAnAutopilotAndAsksForItsMessages) {
   dialogue.begin();

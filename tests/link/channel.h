@@ -129,7 +129,7 @@ class World {
   }
   static EndOptions with_key(std::string_view key) {
     EndOptions options;
-    options.key = std::get<Key>(Key::from_text(key));
+    options.key = Key::from_text(key);
     return options;
   }
 

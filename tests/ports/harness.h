@@ -32,6 +32,7 @@ class Recorder : public PortListener {
   void on_opened(std::int64_t now_ns, const OpenPort& port) override;
   void on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) override;
   void on_sent(std::int64_t now_ns, protocols::Bytes bytes) override;
+  void on_dropped(protocols::Bytes bytes) override { dropped.append(bytes.begin(), bytes.end()); }
   void on_lost(std::int64_t now_ns, std::string_view reason) override;
 
   std::vector<OpenPort> opened;
@@ -39,6 +40,7 @@ class Recorder : public PortListener {
   std::vector<std::int64_t> arrivals_ns;
   std::vector<std::string> lost;
   std::function<void()> at_bytes;  ///< called from within on_bytes
+  std::string dropped;
 };
 
 config::PortSettings settings_for(const std::filesystem::path& path, int baud = 9600);

@@ -238,6 +238,18 @@ TEST_F(DatagramPort, AnswersGoToTheLastSender) {
   EXPECT_EQ(heard, "answer");
 }
 
+TEST_F(DatagramPort, EachMessageIsADatagram) {
+  port.send(bytes_of("to nobody"));
+  EXPECT_EQ(recorder.dropped, "to nobody");
+  send("hello");
+  ASSERT_TRUE(until([&] { return recorder.received == "hello"; }));
+  for (const char* const text : {"one", "more"}) port.send(bytes_of(text));
+  std::string heard(100, '\0');
+  EXPECT_EQ(sender.receive(boost::asio::buffer(heard)), 3U);
+  EXPECT_EQ(sender.receive(boost::asio::buffer(heard)), 4U);
+  EXPECT_EQ(recorder.sent, "onemore");
+}
+
 TEST_F(DatagramPort, ASenderThatHasGoneDoesNotEndThePort) {
   send("hello");
   ASSERT_TRUE(until([&] { return recorder.received == "hello"; }));

@@ -44,6 +44,7 @@ TEST_F(PortSend, TheQueueIsBounded) {
   ASSERT_TRUE(run_until(io, [&] { return recorder.sent.size() == 4000; }));
   run_for(io, std::chrono::milliseconds(100));
   EXPECT_EQ(heard.size(), 4000U) << "4 KiB, whole messages only";
+  EXPECT_EQ(recorder.dropped.size(), 96'000U);
   port->send(bytes_of("next"));
   EXPECT_TRUE(run_until(io, [&] { return heard.size() == 4004; })) << "and it has room again";
 }
@@ -58,6 +59,7 @@ TEST_F(PortSend, WhileThePortIsAwayNothingIsKept) {
   ASSERT_TRUE(run_until(io, [&] { return heard.size() == 2; }));
   EXPECT_EQ(heard, "go");
   EXPECT_EQ(recorder.sent, "go");
+  EXPECT_EQ(recorder.dropped, "lost");
 }
 
 TEST_F(PortSend, ADeviceThatDoesNotReadHoldsUpNothingElse) {

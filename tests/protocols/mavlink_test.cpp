@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "protocols/crc16.h"
+#include "protocols/mavlink_signer.h"
 #include "tests/protocols/stream.h"
 
 namespace navcal::protocols::mavlink {
@@ -30,6 +31,12 @@ Buffer bytes_of(std::string_view hex) {
 const Buffer kHeartbeat = bytes_of("fd090000000101000000036e339c4c9ef8a9a8a4dc");
 const Buffer kSystemTime = bytes_of("fd0c0000060101020000ccfc0638667e030007ee3fc3a37b");
 const Buffer kZeros = bytes_of("fd000000040101010000ce59");
+
+constexpr const char *kSignedByNode = "fd090100070101000000050000000c035104035af10300e03cd6921faae52d8c799c",
+                     *kSignedLater = "fd090100070101000000050000000c035104035af10301e03cd6921f6c12824870e8";
+constexpr Signer::Key kSecret{0x2B, 0xB8, 0x0D, 0x53, 0x7B, 0x1D, 0xA3, 0xE3, 0x8B, 0xD3, 0x03,
+                              0x61, 0xAA, 0x85, 0x56, 0x86, 0xBD, 0xE0, 0xEA, 0xCD, 0x71, 0x62,
+                              0xFE, 0xF6, 0xA2, 0x5F, 0xE9, 0x7B, 0xF5, 0x27, 0xA2, 0x5B};
 
 std::vector<std::string> names_in(const Buffer& stream) {
   std::vector<std::string> names;
@@ -115,6 +122,38 @@ TEST(Mavlink, ParametersGoBothWays) {
   EXPECT_EQ(payload.at<std::int16_t>(0), -1);
   EXPECT_EQ(payload.at<std::uint8_t>(2), 9);
   EXPECT_EQ(payload.text(4, 16), "COMPASS_OFS_X");
+}
+
+/// SIGNED_HEARTBEAT and another one ten microseconds later, made by node-mavlink with SHA-256 of "secret" as the
+/// key.
+TEST(Mavlink, ChecksSignaturesOfElsewhereAndRefusesReplays) {
+  const Buffer first = bytes_of(kSignedByNode), second = bytes_of(kSignedLater);
+  Signer signer(kSecret);
+  EXPECT_EQ(signer.check(first), Signer::Verdict::good);
+  EXPECT_EQ(signer.check(first), Signer::Verdict::replayed);
+  EXPECT_EQ(signer.check(second), Signer::Verdict::good);
+  EXPECT_EQ(signer.check(first), Signer::Verdict::replayed);
+  EXPECT_EQ(signer.check(kHeartbeat), Signer::Verdict::not_signed);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    Buffer changed = second;
+    changed[i] ^= 0x40U;
+    EXPECT_NE(Signer(kSecret).check(changed), Signer::Verdict::good) << i;
+  }
+  Signer::Key other = kSecret;
+  other[31] ^= 1U;
+  EXPECT_EQ(Signer(other).check(first), Signer::Verdict::wrong);
+}
+
+TEST(Mavlink, SignsWhatItChecksItself) {
+  Signer ours(kSecret), theirs(kSecret);
+  for (int i = 0; i < 3; ++i) {
+    Buffer frame = encode_heartbeat({1, 197, 0}, 18);
+    ours.sign(frame);
+    ASSERT_EQ(find_message(frame).verdict, Verdict::frame);
+    EXPECT_TRUE(find_message(frame).message.is_signed);
+    EXPECT_EQ(theirs.check(frame), Signer::Verdict::good) << "each is later than the one before";
+  }
+  EXPECT_EQ(theirs.check(bytes_of(kSignedByNode)), Signer::Verdict::replayed) << "older by more than a minute";
 }
 
 TEST(Mavlink, ASumOfBeforeTheCutIsRecoveredAndSaid) {

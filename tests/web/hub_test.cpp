@@ -27,10 +27,10 @@ TEST(Hub, NewestOfEachTopicAndDeviceIsKeptForThoseWhoComeLater) {
   hub.publish({"/imu", "b", 2, "2"});
   hub.publish({"/imu", "a", 3, "3"});
   Listener late;
-  hub.repeat_newest(late);
+  hub.repeat_newest([&](const Record& record) { late.on_record(record); });
   EXPECT_EQ(late.got, (std::vector<std::string>{"3", "2"}));
   hub.forget();
-  hub.repeat_newest(late);
+  hub.repeat_newest([&](const Record& record) { late.on_record(record); });
   EXPECT_EQ(late.got.size(), 2U);
 }
 
@@ -92,7 +92,7 @@ TEST(Hub, WhatIsKeptIsBounded) {
   Hub hub;
   for (int i = 0; i < 5000; ++i) hub.publish({"/imu", std::to_string(i), 1, "x"});
   Listener late;
-  hub.repeat_newest(late);
+  hub.repeat_newest([&](const Record& record) { late.on_record(record); });
   EXPECT_EQ(late.got.size(), 1024U);
 }
 

@@ -17,34 +17,28 @@ namespace {
 
 using SchemaJson = nlohmann::ordered_json;
 
-SchemaJson numbers(const char* title, std::initializer_list<const char*> names) {
-  SchemaJson json{{"type", "object"}, {"title", title}};
-  for (const char* name : names) json["properties"][name]["type"] = "number";
-  return json;
+SchemaJson object(const char* title, SchemaJson properties) {
+  return {{"title", title}, {"type", "object"}, {"properties", std::move(properties)}};
 }
-
 SchemaJson number(const char* description) { return {{"type", "number"}, {"description", description}}; }
 SchemaJson text(const char* description) { return {{"type", "string"}, {"description", description}}; }
 SchemaJson integer(const char* description) { return {{"type", "integer"}, {"description", description}}; }
+SchemaJson list_of(SchemaJson items) { return {{"type", "array"}, {"items", std::move(items)}}; }
+
+SchemaJson numbers(const char* title, std::initializer_list<const char*> names) {
+  SchemaJson properties;
+  for (const char* name : names) properties[name]["type"] = "number";
+  return object(title, std::move(properties));
+}
 
 /// Programs know a time by this title and these two members.
 SchemaJson time_schema() {
-  SchemaJson json{{"type", "object"}, {"title", "time"}};
-  json["properties"]["sec"] = {{"type", "integer"}, {"minimum", 0}};
-  json["properties"]["nsec"] = {{"type", "integer"}, {"minimum", 0}, {"maximum", 999999999}};
-  return json;
+  return object("time", {{"sec", {{"type", "integer"}, {"minimum", 0}}},
+                         {"nsec", {{"type", "integer"}, {"minimum", 0}, {"maximum", 999999999}}}});
 }
 
 SchemaJson vector_schema() { return numbers("foxglove.Vector3", {"x", "y", "z"}); }
 SchemaJson quaternion_schema() { return numbers("foxglove.Quaternion", {"x", "y", "z", "w"}); }
-
-SchemaJson list_of(SchemaJson items) { return {{"type", "array"}, {"items", std::move(items)}}; }
-
-std::string schema(const char* title, SchemaJson properties) {
-  SchemaJson json{{"title", title}, {"type", "object"}};
-  json["properties"] = std::move(properties);
-  return json.dump();
-}
 
 using DerivedJson = nlohmann::ordered_json;
 
@@ -62,10 +56,6 @@ DerivedJson timestamp(std::int64_t time_ns) {
 }
 
 DerivedJson vector(double x, double y, double z) { return {{"x", x}, {"y", y}, {"z", z}}; }
-
-std::string dump(const DerivedJson& json) {
-  return json.dump(-1, ' ', false, DerivedJson::error_handler_t::replace);
-}
 
 struct Place {
   double latitude_deg = 0, longitude_deg = 0;
@@ -120,21 +110,18 @@ std::optional<std::string> location_of_fix(const nlohmann::json& message, std::i
                              number_in(message, "climb_m_s").value_or(0));
   fix["color"] = kFixColour;
   fix["metadata"] = metadata({{"source", "/gps"}, {"fix", kind}});
-  return dump(fix);
+  return json_text(fix);
 }
 
 std::string location_of_reckoning(const nlohmann::json& message, std::int64_t time_ns, const Place& place) {
   DerivedJson fix = location_fix(time_ns, "vehicle", place, -number_in(message, "depth_m").value_or(0));
   put_covariance(fix, number_in(message, "east_std_m"), number_in(message, "north_std_m"), std::nullopt);
   if (const auto heading_rad = number_in(message, "heading_rad")) fix["heading"] = *heading_rad;
-  const auto velocity = message.find("velocity_m_s");
-  if (velocity != message.end() && velocity->is_array() && velocity->size() == 3 && (*velocity)[0].is_number() &&
-      (*velocity)[1].is_number() && (*velocity)[2].is_number())
-    fix["velocity"] =
-        vector((*velocity)[1].get<double>(), (*velocity)[0].get<double>(), -(*velocity)[2].get<double>());
+  if (const auto velocity = vector_in(message, "velocity_m_s"))
+    fix["velocity"] = vector((*velocity)[1], (*velocity)[0], -(*velocity)[2]);
   fix["color"] = kReckonedColour;
   fix["metadata"] = metadata({{"source", "/nav"}, {"position", text_in(message, "position")}});
-  return dump(fix);
+  return json_text(fix);
 }
 
 int level_of(std::string_view severity) {
@@ -146,13 +133,12 @@ int level_of(std::string_view severity) {
 }
 
 std::string log_of_event(const nlohmann::json& message, std::int64_t time_ns) {
-  const std::string port = text_in(message, "port"), words = text_in(message, "message");
-  return dump({{"timestamp", timestamp(time_ns)},
-               {"level", level_of(text_in(message, "severity"))},
-               {"message", port.empty() ? words : port + ": " + words},
-               {"name", text_in(message, "name")},
-               {"file", ""},
-               {"line", 0}});
+  return json_text({{"timestamp", timestamp(time_ns)},
+                    {"level", level_of(text_in(message, "severity"))},
+                    {"message", event_text(message)},
+                    {"name", text_in(message, "name")},
+                    {"file", ""},
+                    {"line", 0}});
 }
 
 /// Without a heading there is no pose. An unknown tilt counts as level.
@@ -165,14 +151,14 @@ void put_pose(Derived& derived, const nlohmann::json& message, std::int64_t time
   const DerivedJson rotation{{"x", turn.x}, {"y", turn.y}, {"z", turn.z}, {"w", turn.w}};
   const DerivedJson position =
       vector(east_north_m[0], east_north_m[1], -number_in(message, "depth_m").value_or(0));
-  derived.pose = dump({{"timestamp", timestamp(time_ns)},
-                       {"frame_id", "map"},
-                       {"pose", {{"position", position}, {"orientation", rotation}}}});
-  derived.transform = dump({{"timestamp", timestamp(time_ns)},
-                            {"parent_frame_id", "map"},
-                            {"child_frame_id", "vehicle"},
-                            {"translation", position},
-                            {"rotation", rotation}});
+  derived.pose = json_text({{"timestamp", timestamp(time_ns)},
+                            {"frame_id", "map"},
+                            {"pose", {{"position", position}, {"orientation", rotation}}}});
+  derived.transform = json_text({{"timestamp", timestamp(time_ns)},
+                                 {"parent_frame_id", "map"},
+                                 {"child_frame_id", "vehicle"},
+                                 {"translation", position},
+                                 {"rotation", rotation}});
 }
 
 /// Bound of what is kept: a broken peer may name new topics without end.
@@ -199,53 +185,48 @@ const std::vector<DerivedChannel>& derived_channels() {
 }  // namespace
 
 std::string location_fix_schema() {
-  SchemaJson pair{{"type", "object"}, {"title", "foxglove.KeyValuePair"}};
-  pair["properties"] = {{"key", text("name")}, {"value", text("value")}};
-  SchemaJson properties;
-  properties["timestamp"] = time_schema();
-  properties["frame_id"] = text("port of the receiver, or vehicle for what is reckoned");
-  properties["latitude"] = number("deg");
-  properties["longitude"] = number("deg");
-  properties["altitude"] = number("m, of a fix above the ellipsoid, of what is reckoned above the surface");
-  properties["position_covariance"] = list_of(number("m^2: east, north, up, row by row"));
-  properties["position_covariance_type"] = integer("0 unknown, 1 approximated, 2 diagonal known, 3 known");
-  properties["heading"] = number("rad, clockwise from true north");
-  properties["velocity"] = vector_schema();
-  properties["color"] = numbers("foxglove.Color", {"r", "g", "b", "a"});
-  properties["metadata"] = list_of(std::move(pair));
-  return schema("foxglove.LocationFix", std::move(properties));
+  return object("foxglove.LocationFix",
+                {{"timestamp", time_schema()},
+                 {"frame_id", text("port of the receiver, or vehicle for what is reckoned")},
+                 {"latitude", number("deg")},
+                 {"longitude", number("deg")},
+                 {"altitude", number("m, of a fix above the ellipsoid, of what is reckoned above the surface")},
+                 {"position_covariance", list_of(number("m^2: east, north, up, row by row"))},
+                 {"position_covariance_type", integer("0 unknown, 1 approximated, 2 diagonal known, 3 known")},
+                 {"heading", number("rad, clockwise from true north")},
+                 {"velocity", vector_schema()},
+                 {"color", numbers("foxglove.Color", {"r", "g", "b", "a"})},
+                 {"metadata",
+                  list_of(object("foxglove.KeyValuePair", {{"key", text("name")}, {"value", text("value")}}))}})
+      .dump();
 }
 
 std::string pose_in_frame_schema() {
-  SchemaJson pose{{"type", "object"}, {"title", "foxglove.Pose"}};
-  pose["properties"]["position"] = vector_schema();
-  pose["properties"]["orientation"] = quaternion_schema();
-  SchemaJson properties;
-  properties["timestamp"] = time_schema();
-  properties["frame_id"] = text("map: east, north, up");
-  properties["pose"] = std::move(pose);
-  return schema("foxglove.PoseInFrame", std::move(properties));
+  return object("foxglove.PoseInFrame",
+                {{"timestamp", time_schema()},
+                 {"frame_id", text("map: east, north, up")},
+                 {"pose",
+                  object("foxglove.Pose", {{"position", vector_schema()}, {"orientation", quaternion_schema()}})}})
+      .dump();
 }
 
 std::string frame_transform_schema() {
-  SchemaJson properties;
-  properties["timestamp"] = time_schema();
-  properties["parent_frame_id"] = text("map: east, north, up");
-  properties["child_frame_id"] = text("vehicle: forward, port, up");
-  properties["translation"] = vector_schema();
-  properties["rotation"] = quaternion_schema();
-  return schema("foxglove.FrameTransform", std::move(properties));
+  return object("foxglove.FrameTransform", {{"timestamp", time_schema()},
+                                            {"parent_frame_id", text("map: east, north, up")},
+                                            {"child_frame_id", text("vehicle: forward, port, up")},
+                                            {"translation", vector_schema()},
+                                            {"rotation", quaternion_schema()}})
+      .dump();
 }
 
 std::string log_schema() {
-  SchemaJson properties;
-  properties["timestamp"] = time_schema();
-  properties["level"] = integer("2 info, 3 warning, 4 error, 5 alarm");
-  properties["message"] = text("port and message of the event");
-  properties["name"] = text("name of the event");
-  properties["file"] = text("empty");
-  properties["line"] = integer("0");
-  return schema("foxglove.Log", std::move(properties));
+  return object("foxglove.Log", {{"timestamp", time_schema()},
+                                 {"level", integer("2 info, 3 warning, 4 error, 5 alarm")},
+                                 {"message", text("port and message of the event")},
+                                 {"name", text("name of the event")},
+                                 {"file", text("empty")},
+                                 {"line", integer("0")}})
+      .dump();
 }
 
 Quaternion orientation_in_map(double heading_rad, double pitch_rad, double roll_rad) {

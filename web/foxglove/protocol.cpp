@@ -5,25 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "protocols/wire_fields.h"
+#include "record/json/json_members.h"
+
 namespace navcal::web::foxglove {
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
+using record::json_text;
 
-constexpr char kMessageData = 1;
-constexpr char kTime = 2;
-
-std::string dumped(const OrderedJson& json) {
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-}
-
-template <class Integer>
-void append_little_endian(std::string& out, Integer value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) {
-    out += static_cast<char>(value & 0xFF);
-    value = static_cast<Integer>(value >> 8);
-  }
-}
+constexpr std::uint8_t kMessageData = 1, kTime = 2;
 
 /// Ids have 32 bits, because a message's head has room for so many.
 std::optional<std::uint32_t> id_of(const nlohmann::json& value) {
@@ -76,17 +66,17 @@ void read_unsubscribe(ClientMessage& message, const nlohmann::json& json) {
 }  // namespace
 
 std::string server_info(std::string_view name, std::string_view version, std::string_view session) {
-  return dumped({{"op", "serverInfo"},
-                 {"name", name},
-                 {"capabilities", {"time"}},
-                 {"metadata", {{"version", version}}},
-                 {"sessionId", session}});
+  return json_text({{"op", "serverInfo"},
+                    {"name", name},
+                    {"capabilities", {"time"}},
+                    {"metadata", {{"version", version}}},
+                    {"sessionId", session}});
 }
 
 std::string status(StatusLevel level, std::string_view message, std::string_view id) {
-  OrderedJson json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}};
+  nlohmann::ordered_json json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}};
   if (!id.empty()) json["id"] = id;
-  return dumped(json);
+  return json_text(json);
 }
 
 std::string advertise(const std::vector<std::string_view>& channels) {
@@ -99,33 +89,27 @@ std::string advertise(const std::vector<std::string_view>& channels) {
 }
 
 std::string unadvertise(const std::vector<std::uint32_t>& channels) {
-  return dumped({{"op", "unadvertise"}, {"channelIds", channels}});
+  return json_text({{"op", "unadvertise"}, {"channelIds", channels}});
 }
 
 std::string channel(std::uint32_t id, std::string_view topic, std::string_view schema_name,
                     std::string_view schema) {
-  return dumped({{"id", id},
-                 {"topic", topic},
-                 {"encoding", "json"},
-                 {"schemaName", schema_name},
-                 {"schema", schema},
-                 {"schemaEncoding", "jsonschema"}});
+  return json_text({{"id", id},
+                    {"topic", topic},
+                    {"encoding", "json"},
+                    {"schemaName", schema_name},
+                    {"schema", schema},
+                    {"schemaEncoding", "jsonschema"}});
 }
 
 std::string message_data(std::uint32_t subscription, std::uint64_t time_ns, std::string_view payload) {
-  std::string bytes;
-  bytes.reserve(1 + sizeof subscription + sizeof time_ns + payload.size());
-  bytes += kMessageData;
-  append_little_endian(bytes, subscription);
-  append_little_endian(bytes, time_ns);
-  bytes += payload;
-  return bytes;
+  const auto head = protocols::packed_le(kMessageData, subscription, time_ns);
+  return std::string(head.begin(), head.end()).append(payload);
 }
 
 std::string time(std::uint64_t time_ns) {
-  std::string bytes(1, kTime);
-  append_little_endian(bytes, time_ns);
-  return bytes;
+  const auto bytes = protocols::packed_le(kTime, time_ns);
+  return {bytes.begin(), bytes.end()};
 }
 
 void note_problem(ClientMessage& message, std::string problem) {

@@ -7,14 +7,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "base/enum_name.h"
+#include "record/json/json_members.h"
 
 namespace navcal::web {
 namespace {
-
-std::string_view name_of(Exposition::Type type) {
-  return base::enum_name<Exposition::Type::histogram>(type, {"counter", "gauge", "histogram"});
-}
 
 void append_escaped(std::string& out, std::string_view text, bool quotes) {
   for (const char c : text) {
@@ -32,25 +28,26 @@ void append_escaped(std::string& out, std::string_view text, bool quotes) {
 
 /// The text with U+FFFD in place of what is no UTF-8: Prometheus refuses a whole page for one such byte.
 std::string valid_utf8(std::string_view text) {
-  const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string quoted = record::json_text(nlohmann::json(text));
   return nlohmann::json::parse(quoted).get<std::string>();
 }
 
 }  // namespace
 
-void Exposition::metric(std::string_view name, Type type, std::string_view help) {
+void Exposition::metric(std::string_view name, std::string_view help) {
   name_ = name;
-  head_ = fmt::format("# HELP {} ", name);
-  append_escaped(head_, help, false);
-  head_ += fmt::format("\n# TYPE {} {}\n", name, name_of(type));
+  help_ = help;
 }
 
 void Exposition::sample(const Labels& labels, std::optional<double> value) {
-  if (value && std::isfinite(*value)) line("", labels, std::nullopt, *value);
+  if (!value || !std::isfinite(*value)) return;
+  begin(name_.ends_with("_total") ? "counter" : "gauge");
+  line("", labels, std::nullopt, *value);
 }
 
 void Exposition::histogram(const Labels& labels, std::span<const double> upper_bounds,
                            std::span<const std::uint64_t> counts, std::optional<double> sum) {
+  begin("histogram");
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
     total += i < counts.size() ? counts[i] : 0;
@@ -62,8 +59,15 @@ void Exposition::histogram(const Labels& labels, std::span<const double> upper_b
   line("_count", labels, std::nullopt, static_cast<double>(total));
 }
 
+void Exposition::begin(std::string_view type) {
+  if (!help_) return;
+  text_ += fmt::format("# HELP {} ", name_);
+  append_escaped(text_, *help_, false);
+  text_ += fmt::format("\n# TYPE {} {}\n", name_, type);
+  help_.reset();
+}
+
 void Exposition::line(std::string_view suffix, const Labels& labels, std::optional<Label> last, double value) {
-  text_ += std::exchange(head_, {});
   text_ += name_;
   text_ += suffix;
   char separator = '{';

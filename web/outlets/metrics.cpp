@@ -9,15 +9,11 @@
 #include <iterator>
 #include <optional>
 
-#include "web/outlets/chrony.h"
 #include "web/outlets/daemon_metrics.h"
 #include "web/outlets/json_members.h"
-#include "web/outlets/mqtt_connection.h"
 
 namespace navcal::web {
 namespace {
-
-using enum Exposition::Type;
 
 std::optional<double> cpu_s() {
   rusage usage{};
@@ -45,9 +41,9 @@ std::optional<double> open_descriptors() {
 
 /// CPU time, memory and descriptors of this process, by the names that all programs use for Prometheus.
 void append_process(Exposition& out) {
-  out.single("process_cpu_seconds_total", counter, "CPU time of navcal-web.", cpu_s());
-  out.single("process_resident_memory_bytes", gauge, "Memory of navcal-web.", resident_bytes());
-  out.single("process_open_fds", gauge, "Descriptors that navcal-web has open.", open_descriptors());
+  out.single("process_cpu_seconds_total", "CPU time of navcal-web.", cpu_s());
+  out.single("process_resident_memory_bytes", "Memory of navcal-web.", resident_bytes());
+  out.single("process_open_fds", "Descriptors that navcal-web has open.", open_descriptors());
 }
 
 /// More than any vehicle has; a broken peer may name any number.
@@ -95,8 +91,7 @@ void Metrics::on_link(const Link& link) {
 }
 
 void Metrics::append_daemon(Exposition& out) const {
-  out.single("navcald_up", gauge, "1 while navcal-web is connected to navcald.",
-             hub_.link().connected ? 1.0 : 0.0);
+  out.single("navcald_up", "1 while navcal-web is connected to navcald.", hub_.link().connected);
   append_health(out, health_.parts());
   append_clock(out, time_, health_.parts());
   append_navigation(out, navigation_);
@@ -104,67 +99,45 @@ void Metrics::append_daemon(Exposition& out) const {
   for (const auto& [device, battery] : batteries_) batteries.push_back(battery);
   append_batteries(out, batteries);
   append_calibration(out, calibration_.parts());
-  out.metric("navcald_events_total", counter, "Events of navcald that navcal-web has seen.");
+  out.metric("navcald_events_total", "Events of navcald that navcal-web has seen.");
   for (const auto& [severity, count] : events_) out.sample({{"severity", severity}}, static_cast<double>(count));
 }
 
 void Metrics::append_program(Exposition& out) const {
-  const auto count = [&out](const char* name, const char* help, std::uint64_t value) {
-    out.single(name, counter, help, static_cast<double>(value));
-  };
-  count("navcal_web_records_total", "Records taken from navcald.", hub_.published());
+  out.single("navcal_web_records_total", "Records taken from navcald.", hub_.published());
   if (source_ != nullptr) {
-    count("navcal_web_status_connections_total", "Connections to navcald.", source_->connections);
-    count("navcal_web_status_lines_total", "Lines taken from navcald.", source_->lines);
-    count("navcal_web_status_not_understood_lines_total", "Lines that are not navcald's.",
-          source_->not_understood);
-    out.single("navcal_web_status_missed_reports", gauge,
+    out.single("navcal_web_status_connections_total", "Connections to navcald.", source_->connections);
+    out.single("navcal_web_status_lines_total", "Lines taken from navcald.", source_->lines);
+    out.single("navcal_web_status_not_understood_lines_total", "Lines that are not navcald's.",
+               source_->not_understood);
+    out.single("navcal_web_status_missed_reports",
                "Reports that this connection to navcald missed, because navcal-web was too slow.",
-               static_cast<double>(source_->missed));
+               source_->missed);
   }
   if (server_ != nullptr) {
-    count("navcal_web_connections_total", "Connections accepted.", server_->connections);
-    count("navcal_web_refused_connections_total", "Connections closed because of the bound.",
-          server_->connections_refused);
-    count("navcal_web_requests_total", "HTTP requests.", server_->requests);
-    count("navcal_web_refused_requests_total", "HTTP requests answered with 400 and above.",
-          server_->requests_refused);
-    count("navcal_web_broken_requests_total", "No HTTP, too large, or not complete in time.",
-          server_->requests_broken);
-    count("navcal_web_websockets_total", "WebSocket clients since the start.", server_->web_sockets);
-    out.single("navcal_web_websockets", gauge, "WebSocket clients now.",
-               static_cast<double>(server_->web_sockets_open));
-    count("navcal_web_sent_messages_total", "WebSocket messages sent.", server_->messages_sent);
-    count("navcal_web_dropped_messages_total", "WebSocket messages dropped, because the client did not read.",
-          server_->messages_dropped);
-    count("navcal_web_sent_bytes_total", "Bytes of WebSocket messages sent.", server_->bytes_sent);
+    out.single("navcal_web_connections_total", "Connections accepted.", server_->connections);
+    out.single("navcal_web_refused_connections_total", "Connections closed because of the bound.",
+               server_->connections_refused);
+    out.single("navcal_web_requests_total", "HTTP requests.", server_->requests);
+    out.single("navcal_web_refused_requests_total", "HTTP requests answered with 400 and above.",
+               server_->requests_refused);
+    out.single("navcal_web_broken_requests_total", "No HTTP, too large, or not complete in time.",
+               server_->requests_broken);
+    out.single("navcal_web_websockets_total", "WebSocket clients since the start.", server_->web_sockets);
+    out.single("navcal_web_websockets", "WebSocket clients now.", server_->web_sockets_open);
+    out.single("navcal_web_sent_messages_total", "WebSocket messages sent.", server_->messages_sent);
+    out.single("navcal_web_dropped_messages_total", "WebSocket messages dropped, because the client did not read.",
+               server_->messages_dropped);
+    out.single("navcal_web_sent_bytes_total", "Bytes of WebSocket messages sent.", server_->bytes_sent);
   }
   append_process(out);
-}
-
-void Metrics::append_outlets(Exposition& out) const {
-  if (mqtt_ != nullptr) {
-    out.single("navcal_web_mqtt_connected", gauge, "1 while there is a connection to the MQTT broker.",
-               mqtt_->connected ? 1.0 : 0.0);
-    out.single("navcal_web_mqtt_published_messages_total", counter, "Messages that the MQTT broker got.",
-               static_cast<double>(mqtt_->published));
-    out.single("navcal_web_mqtt_dropped_messages_total", counter,
-               "Messages dropped, because there was no MQTT broker or it was too slow.",
-               static_cast<double>(mqtt_->dropped));
-  }
-  if (chrony_ != nullptr) {
-    out.single("navcal_web_chrony_samples_total", counter, "Samples that chronyd got.",
-               static_cast<double>(chrony_->samples));
-    out.single("navcal_web_chrony_failed_samples_total", counter, "Samples that nobody took.",
-               static_cast<double>(chrony_->not_sent));
-  }
 }
 
 std::string Metrics::page() const {
   Exposition out;
   append_daemon(out);
   append_program(out);
-  append_outlets(out);
+  if (more_) more_(out);
   return out.text();
 }
 

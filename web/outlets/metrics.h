@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "web/http.h"
@@ -37,9 +39,6 @@ class LatestParts {
   std::vector<nlohmann::json> parts_;
 };
 
-struct ChronyCounters;
-struct MqttCounters;
-
 /// State of navcald and of this program for Prometheus. While there is no connection to navcald, only
 /// `navcald_up 0` is told about it.
 class Metrics final : public Subscriber {
@@ -55,8 +54,7 @@ class Metrics final : public Subscriber {
     source_ = &source;
   }
 
-  void watch(const MqttCounters& mqtt) { mqtt_ = &mqtt; }
-  void watch(const ChronyCounters& chrony) { chrony_ = &chrony; }
+  void watch(std::function<void(Exposition&)> more) { more_ = std::move(more); }
 
   /// The whole page in Prometheus' text format.
   [[nodiscard]] std::string page() const;
@@ -68,13 +66,11 @@ class Metrics final : public Subscriber {
  private:
   void append_daemon(Exposition& out) const;
   void append_program(Exposition& out) const;
-  void append_outlets(Exposition& out) const;
 
   Hub& hub_;
   const ServerCounters* server_ = nullptr;
   const LiveSource::Counters* source_ = nullptr;
-  const MqttCounters* mqtt_ = nullptr;
-  const ChronyCounters* chrony_ = nullptr;
+  std::function<void(Exposition&)> more_;
   LatestParts health_, calibration_;
   nlohmann::json time_, navigation_;
   std::map<std::string, nlohmann::json, std::less<>> batteries_;  ///< by device

@@ -2,50 +2,30 @@
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
-#include <boost/asio/steady_timer.hpp>
+#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
 #include "web/hub.h"
-#include "web/outlets/mqtt_connection.h"
 #include "web/outlets/outlet_options.h"
-#include "web/outlets/pacer.h"
 
 namespace navcal::web {
 
-/// Publishes the records to a broker (docs/wires.md): events at once, of states the newest, at a limited rate and
-/// retained.
-class Mqtt final : public Subscriber, public std::enable_shared_from_this<Mqtt> {
- public:
-  /// Throws std::runtime_error, which says what to do.
-  Mqtt(const boost::asio::any_io_executor& executor, const MqttOptions& options, Hub& hub);
-
-  void start();
-  void stop();
-  [[nodiscard]] const MqttCounters& counters() const { return connection_->counters(); }
-
-  void on_record(const Record& record) override;
-  void on_link(const Link& link) override;
-
- private:
-  struct State {
-    Pacer pacer;
-    std::string waiting;  ///< the newest, while its time has not come; empty otherwise
-  };
-  void greet();
-  void tick();
-  void tell_link(bool is_up);
-
-  MqttOptions options_;
-  Hub* hub_;
-  std::shared_ptr<MqttConnection> connection_;
-  boost::asio::steady_timer timer_;
-  std::map<std::string, State, std::less<>> states_;  ///< by topic
-  Pacer::Clock::duration interval_;
+struct MqttCounters {
+  bool connected = false;
+  std::uint64_t published = 0;  ///< that the broker has, or that were written to its connection
+  std::uint64_t dropped = 0;    ///< because there was no broker, or because it was too slow
 };
 
+/// Publishes the records to a broker (docs/wires.md): events at once, of states the newest, at a limited rate and
+/// retained. Says good-bye when it is destroyed. Throws std::runtime_error, which says what to do.
+[[nodiscard]] std::unique_ptr<Subscriber> make_mqtt(const boost::asio::any_io_executor& executor,
+                                                    const MqttOptions& options, Hub& hub, MqttCounters& counters);
+
+struct MqttLogin {
+  std::string user, password;
+};
 /// User in the first line, password in the second. Throws std::runtime_error, with the file's name, when it cannot
 /// be read, or when everybody may read it.
 [[nodiscard]] MqttLogin read_mqtt_login(const std::filesystem::path& file);

@@ -17,7 +17,6 @@ namespace navcal::web {
 
 /// How BlueOS finds the page of a container: the answer to `GET /register_service`, by its ServiceMetadata.
 [[nodiscard]] std::string blueos_service(std::string_view version);
-[[nodiscard]] Handler blueos_handler(std::string_view version);
 
 /// All that other programs are served with (docs/wires.md), in one place.
 class Outlets {

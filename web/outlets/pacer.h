@@ -12,6 +12,9 @@ class Pacer {
  public:
   using Clock = std::chrono::steady_clock;
 
+  [[nodiscard]] static Clock::duration interval_of(double rate_Hz) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_Hz));
+  }
   [[nodiscard]] bool pass(Clock::time_point now, Clock::duration interval) {
     if (now + interval / 10 < due_) return false;
     due_ = std::max(due_ + interval, now + interval * 9 / 10);

@@ -36,11 +36,10 @@ std::optional<std::string> refusal_of_request(const nlohmann::json& message) {
   const std::string id = text_in(message, "requestId");
   if (id.empty() || id.size() > kMaxPattern) return std::nullopt;
   if (!message.contains("put") && !message.contains("delete") && !message.contains("login")) return std::nullopt;
-  const nlohmann::ordered_json reply{{"requestId", id},
-                                     {"state", "COMPLETED"},
-                                     {"statusCode", 405},
-                                     {"message", "navcal-web is read-only for Signal K"}};
-  return reply.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text({{"requestId", id},
+                    {"state", "COMPLETED"},
+                    {"statusCode", 405},
+                    {"message", "navcal-web is read-only for Signal K"}});
 }
 
 using nlohmann::json;
@@ -60,17 +59,7 @@ json signalk_source(const std::string& device) {
   return source;
 }
 
-std::string as_message(const json& message) {
-  return message.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 constexpr std::string_view kStreamPath = "/signalk/v1/stream";
-
-Handler signalk_answer(std::string body) {
-  return [body = std::move(body)](const Request&) -> boost::asio::awaitable<Response> {
-    co_return respond_json(boost::beast::http::status::ok, body);
-  };
-}
 
 }  // namespace
 
@@ -204,7 +193,7 @@ void SignalKPeer::offer(const std::vector<SignalKUpdate>& updates) {
     if (!metas.empty()) entry["meta"] = std::move(metas);
     sent.push_back(std::move(entry));
   }
-  if (!sent.empty()) link_.send_text(as_message({{"context", feed_->self()}, {"updates", std::move(sent)}}));
+  if (!sent.empty()) link_.send_text(json_text({{"context", feed_->self()}, {"updates", std::move(sent)}}));
 }
 
 SignalKFeed::SignalKFeed(Hub& hub, std::string self, std::string version)
@@ -217,7 +206,7 @@ void SignalKFeed::add(SignalKPeer& peer) {
   Demand demand{false, {}, kSignalKRate_Hz};
   demand.topics.insert(std::begin(SignalKModel::kTopics), std::end(SignalKModel::kTopics));
   hub_->add(*this, std::move(demand));
-  hub_->repeat_newest(*this);
+  hub_->repeat_newest([this](const Record& record) { on_record(record); });
 }
 
 void SignalKFeed::remove(SignalKPeer& peer) {
@@ -233,11 +222,11 @@ void SignalKFeed::detach() {
 }
 
 std::string SignalKFeed::hello() const {
-  return as_message({{"name", "navcal-web"},
-                     {"version", kSignalKVersion},
-                     {"self", self_},
-                     {"roles", {"master", "main"}},
-                     {"timestamp", signalk_now()}});
+  return json_text({{"name", "navcal-web"},
+                    {"version", kSignalKVersion},
+                    {"self", self_},
+                    {"roles", {"master", "main"}},
+                    {"timestamp", signalk_now()}});
 }
 
 void SignalKFeed::on_record(const Record& record) { publish(model_.take(record)); }
@@ -254,24 +243,20 @@ void SignalKFeed::publish(SignalKUpdate update) {
   }
 }
 
-SignalK::SignalK(Hub& hub, Site& site, std::string vessel, std::string version)
-    : feed_(std::make_shared<SignalKFeed>(hub, "vessels." + std::move(vessel), version)) {
-  site.add("GET", "/signalk",
-           [version = std::move(version)](const Request& request) -> boost::asio::awaitable<Response> {
-             const auto host = request[boost::beast::http::field::host];
-             co_return respond_json(boost::beast::http::status::ok,
-                                    signalk_discovery({host.data(), host.size()}, version));
-           });
-  site.add("GET", "/signalk/v1/api/self", signalk_answer(nlohmann::json(feed_->self()).dump()));
-  WebSocketEndpoint stream;
-  stream.path = kStreamPath;
-  stream.make_peer = [feed = feed_](PeerLink& link, std::string_view target) -> std::unique_ptr<Peer> {
-    return std::make_unique<SignalKPeer>(feed, link, target);
-  };
-  site.add(std::move(stream));
+std::shared_ptr<SignalKFeed> add_signalk(Hub& hub, Site& site, const std::string& vessel,
+                                         const std::string& version) {
+  const auto feed = std::make_shared<SignalKFeed>(hub, "vessels." + vessel, version);
+  site.add("GET", "/signalk", [version](const Request& request) -> boost::asio::awaitable<Response> {
+    const auto host = request[boost::beast::http::field::host];
+    co_return respond_json(boost::beast::http::status::ok, signalk_discovery({host.data(), host.size()}, version));
+  });
+  site.add("GET", "/signalk/v1/api/self", json_handler(nlohmann::json(feed->self()).dump()));
+  site.add({.path = std::string(kStreamPath),
+            .make_peer = [feed](PeerLink& link, std::string_view target) -> std::unique_ptr<Peer> {
+              return std::make_unique<SignalKPeer>(feed, link, target);
+            }});
+  return feed;
 }
-
-SignalK::~SignalK() { feed_->detach(); }
 
 std::string default_vessel() {
   // A namespace of navcal's own, so that the same machine has another name with other programs.
@@ -307,7 +292,7 @@ std::string signalk_discovery(std::string_view host, std::string_view version) {
                                {"signalk-http", "http://" + std::string(host) + "/signalk/v1/api/"},
                                {"signalk-ws", "ws://" + std::string(host) + std::string(kStreamPath)}};
   answer["server"] = {{"id", "navcal-web"}, {"version", version}};
-  return answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(answer);
 }
 
 }  // namespace navcal::web

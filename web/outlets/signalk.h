@@ -110,21 +110,12 @@ class SignalKFeed final : public Subscriber, public std::enable_shared_from_this
   std::set<SignalKPeer*> peers_;
 };
 
-class SignalKFeed;
-
 /// Serves Signal K (docs/wires.md): discovery at /signalk, deltas at /signalk/v1/stream, and the context of this
-/// vessel at /signalk/v1/api/self. While nobody is connected, nothing is asked of navcald for it.
-class SignalK {
- public:
-  /// `vessel`: the part after "vessels." of the context, such as "urn:mrn:imo:mmsi:230012345".
-  SignalK(Hub& hub, Site& site, std::string vessel, std::string version);
-  ~SignalK();
-  SignalK(const SignalK&) = delete;
-  SignalK& operator=(const SignalK&) = delete;
-
- private:
-  std::shared_ptr<SignalKFeed> feed_;  ///< shared with the clients, which may outlive this object
-};
+/// vessel at /signalk/v1/api/self. While nobody is connected, nothing is asked of navcald for it. `vessel`: the
+/// part after "vessels." of the context, such as "urn:mrn:imo:mmsi:230012345". The feed is to be detached before
+/// the hub goes; clients may outlive that.
+[[nodiscard]] std::shared_ptr<SignalKFeed> add_signalk(Hub& hub, Site& site, const std::string& vessel,
+                                                       const std::string& version);
 
 /// A name that stays the same on this machine: derived from /etc/machine-id, which it does not disclose. Random
 /// where there is no such file.

@@ -2,8 +2,8 @@
 #include "web/outlets/signalk_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/angles.h"
 #include "web/outlets/json_members.h"
@@ -14,44 +14,46 @@ namespace {
 using nlohmann::json;
 
 constexpr double kCoulombsInAh = 3600, kJoulesInWh = 3600;
-constexpr std::string_view kStandardError = ".standardError";
 
 struct PathMeta {
   std::string_view path;
   std::string_view units;
   std::string_view description;
+  const char* key = nullptr;  ///< of the message, where the value is that number
+  double factor = 1;
 };
 
-constexpr std::array kPathMetas{
-    PathMeta{"navigation.position", "deg", "Position, WGS 84; with fixes or by dead reckoning"},
-    PathMeta{"navigation.position.standardError", "m", "Standard errors of the position: north, east"},
-    PathMeta{"navigation.headingTrue", "rad", "Heading from true north"},
-    PathMeta{"navigation.headingTrue.standardError", "rad", "Standard error of the heading"},
-    PathMeta{"navigation.headingMagnetic", "rad", "Heading from magnetic north, deviation removed"},
-    PathMeta{"navigation.headingMagnetic.standardError", "rad", "Standard error of one reading of the compass"},
-    PathMeta{"navigation.headingCompass", "rad", "Heading as the compass said it"},
-    PathMeta{"navigation.magneticDeviation", "rad", "Deviation of the compass, by the calibration in force"},
-    PathMeta{"navigation.magneticVariation", "rad", "Declination of the Earth's field, positive east"},
-    PathMeta{"navigation.attitude", "rad", "Roll (starboard down), pitch (bow up), yaw (as the heading)"},
-    PathMeta{"navigation.rateOfTurn", "rad/s", "Rate of turn, positive to starboard"},
-    PathMeta{"navigation.rateOfTurn.standardError", "rad/s", "Standard error of one reading of the gyro"},
-    PathMeta{"navigation.speedThroughWater", "m/s", "Speed ahead through the water"},
-    PathMeta{"navigation.speedOverGround", "m/s", "Horizontal speed over ground"},
-    PathMeta{"navigation.courseOverGroundTrue", "rad", "Course over ground from true north"},
-    PathMeta{"environment.current", "", "Set of the water: setTrue in rad, drift in m/s"},
-    PathMeta{"environment.depth.surfaceToTransducer", "m", "Depth of the vehicle below the surface"},
-    PathMeta{"environment.depth.belowTransducer", "m", "Height of the vehicle above the sea floor"},
-    PathMeta{"environment.depth.belowTransducer.standardError", "m", "Standard error of the height"},
-    PathMeta{"environment.depth.belowSurface", "m", "Depth of the water"},
+constexpr PathMeta kPathMetas[]{
+    {"navigation.position", "deg", "Position, WGS 84; with fixes or by dead reckoning"},
+    {"navigation.position.standardError", "m", "Standard errors of the position: north, east"},
+    {"navigation.headingTrue", "rad", "Heading from true north"},
+    {"navigation.headingTrue.standardError", "rad", "Standard error of the heading"},
+    {"navigation.headingMagnetic", "rad", "Heading from magnetic north, deviation removed"},
+    {"navigation.headingMagnetic.standardError", "rad", "Standard error of one reading of the compass"},
+    {"navigation.headingCompass", "rad", "Heading as the compass said it"},
+    {"navigation.magneticDeviation", "rad", "Deviation of the compass, by the calibration in force"},
+    {"navigation.magneticVariation", "rad", "Declination of the Earth's field, positive east"},
+    {"navigation.attitude", "rad", "Roll (starboard down), pitch (bow up), yaw (as the heading)"},
+    {"navigation.rateOfTurn", "rad/s", "Rate of turn, positive to starboard"},
+    {"navigation.rateOfTurn.standardError", "rad/s", "Standard error of one reading of the gyro"},
+    {"navigation.speedThroughWater", "m/s", "Speed ahead through the water", "speed_m_s"},
+    {"navigation.speedOverGround", "m/s", "Horizontal speed over ground"},
+    {"navigation.courseOverGroundTrue", "rad", "Course over ground from true north"},
+    {"environment.current", "", "Set of the water: setTrue in rad, drift in m/s"},
+    {"environment.depth.surfaceToTransducer", "m", "Depth of the vehicle below the surface", "depth_m"},
+    {"environment.depth.belowTransducer", "m", "Height of the vehicle above the sea floor", "altitude_m"},
+    {"environment.depth.belowTransducer.standardError", "m", "Standard error of the height", "altitude_std_m"},
+    {"environment.depth.belowSurface", "m", "Depth of the water", "water_depth_m"},
 };
-constexpr std::array kBatteryMetas{
-    PathMeta{"voltage", "V", "Voltage of the battery"},
-    PathMeta{"current", "A", "Current of the battery, positive while it is charged"},
-    PathMeta{"capacity.stateOfCharge", "ratio", "Charge that is left, of the capacity"},
-    PathMeta{"capacity.remaining", "J", "Energy that is left"},
-    PathMeta{"capacity.remainingCharge", "C", "Charge that is left"},
-    PathMeta{"capacity.remainingCharge.standardError", "C", "Standard error of the charge that is left"},
-    PathMeta{"capacity.timeRemaining", "s", "Time left at the mean load"},
+constexpr PathMeta kBatteryMetas[]{
+    {"voltage", "V", "Voltage of the battery", "voltage_V"},
+    {"current", "A", "Current of the battery, positive while it is charged", "current_A", -1},
+    {"capacity.stateOfCharge", "ratio", "Charge that is left, of the capacity", "charge_percent", 0.01},
+    {"capacity.remaining", "J", "Energy that is left", "energy_Wh", kJoulesInWh},
+    {"capacity.remainingCharge", "C", "Charge that is left", "charge_Ah", kCoulombsInAh},
+    {"capacity.remainingCharge.standardError", "C", "Standard error of the charge that is left", "charge_std_Ah",
+     kCoulombsInAh},
+    {"capacity.timeRemaining", "s", "Time left at the mean load", "time_left_s"},
 };
 constexpr std::string_view kBatteries = "electrical.batteries.";
 
@@ -68,12 +70,6 @@ json signalk_object(std::initializer_list<std::pair<const char*, std::optional<d
   return object;
 }
 
-std::optional<double> element_of(const json& object, const char* key, std::size_t index) {
-  const json& list = member_of(object, key);
-  if (!list.is_array() || list.size() <= index || !list[index].is_number()) return std::nullopt;
-  return list[index].get<double>();
-}
-
 /// A key of Signal K has letters and digits only.
 std::string signalk_instance(std::string_view device) {
   std::string instance;
@@ -82,24 +78,19 @@ std::string signalk_instance(std::string_view device) {
   return instance.empty() ? "0" : instance;
 }
 
-std::vector<SignalKValue> signalk_battery(const json& battery, std::string_view device) {
-  const std::string head = std::string(kBatteries) + signalk_instance(device) + '.';
-  const auto number = [&](const char* key, double factor) {
-    return signalk_number(scaled(number_in(battery, key), factor));
-  };
-  return {
-      {head + "voltage", number("voltage_V", 1)},
-      {head + "current", number("current_A", -1)},
-      {head + "capacity.stateOfCharge", number("charge_percent", 0.01)},
-      {head + "capacity.remaining", number("energy_Wh", kJoulesInWh)},
-      {head + "capacity.remainingCharge", number("charge_Ah", kCoulombsInAh)},
-      {head + "capacity.remainingCharge" + std::string(kStandardError), number("charge_std_Ah", kCoulombsInAh)},
-      {head + "capacity.timeRemaining", number("time_left_s", 1)}};
+/// Appends the paths of `metas` that are numbers of the message.
+void append_numbers(std::vector<SignalKValue>& values, const std::string& head, std::span<const PathMeta> metas,
+                    const json& message) {
+  for (const PathMeta& meta : metas) {
+    if (meta.key != nullptr)
+      values.push_back(
+          {head + std::string(meta.path), signalk_number(scaled(number_in(message, meta.key), meta.factor))});
+  }
 }
 
 std::vector<SignalKValue> signalk_rates(const json& imu) {
   auto rate = number_in(imu, "yaw_rate_calibrated_rad_s");
-  if (!rate) rate = element_of(imu, "rate_rad_s", 2);
+  if (const auto rates = vector_in(imu, "rate_rad_s"); rates && !rate) rate = (*rates)[2];
   const auto std_rad_s = rate ? number_in(imu, "rate_std_rad_s") : std::nullopt;
   return {{"navigation.rateOfTurn", signalk_number(rate)},
           {"navigation.rateOfTurn.standardError", signalk_number(std_rad_s)}};
@@ -108,7 +99,7 @@ std::vector<SignalKValue> signalk_rates(const json& imu) {
 }  // namespace
 
 json signalk_meta(std::string_view path) {
-  const auto meta_in = [](const auto& metas, std::string_view name) -> json {
+  const auto meta_in = [](std::span<const PathMeta> metas, std::string_view name) -> json {
     for (const PathMeta& meta : metas) {
       if (meta.path != name) continue;
       json found{{"description", meta.description}};
@@ -134,12 +125,14 @@ SignalKUpdate SignalKModel::take(const Record& record) {
     values.push_back({"navigation.magneticVariation", signalk_number(declination_rad_)});
   } else if (record.topic == "/nav") {
     values = navigation(message);
+    append_numbers(values, "", kPathMetas, message);
   } else if (record.topic == "/compass" && serves("heading", record.device)) {
     values = compass(message);
   } else if (record.topic == "/imu" && serves("rates", record.device)) {
     values = signalk_rates(message);
   } else if (record.topic == "/battery") {
-    values = signalk_battery(message, record.device);
+    append_numbers(values, std::string(kBatteries) + signalk_instance(record.device) + '.', kBatteryMetas,
+                   message);
   }
   for (SignalKValue& one : values) {
     const bool was_known = newest_.contains(one.path);
@@ -199,7 +192,8 @@ SignalKModel::Values SignalKModel::navigation(const json& nav) const {
   // Without a declination the estimator's heading is magnetic.
   const auto true_heading = declination_rad_ ? number_in(nav, "heading_rad") : std::nullopt;
   const auto heading_std = true_heading ? number_in(nav, "heading_std_rad") : std::nullopt;
-  const auto north = element_of(nav, "velocity_m_s", 0), east = element_of(nav, "velocity_m_s", 1);
+  std::optional<double> north, east;
+  if (const auto velocity = vector_in(nav, "velocity_m_s")) north = (*velocity)[0], east = (*velocity)[1];
   const auto set_north = number_in(nav, "set_north_m_s"), set_east = number_in(nav, "set_east_m_s");
   const auto speed = [](auto n, auto e) { return n && e ? std::optional(std::hypot(*n, *e)) : std::nullopt; };
   const auto course = [](auto n, auto e) {
@@ -217,15 +211,10 @@ SignalKModel::Values SignalKModel::navigation(const json& nav) const {
           {"navigation.attitude", signalk_object({{"roll", number_in(nav, "roll_rad")},
                                                   {"pitch", number_in(nav, "pitch_rad")},
                                                   {"yaw", number_in(nav, "heading_rad")}})},
-          {"navigation.speedThroughWater", signalk_number(number_in(nav, "speed_m_s"))},
           {"navigation.speedOverGround", signalk_number(speed(north, east))},
           {"navigation.courseOverGroundTrue", signalk_number(course(north, east))},
           {"environment.current",
-           signalk_object({{"drift", speed(set_north, set_east)}, {"setTrue", course(set_north, set_east)}})},
-          {"environment.depth.surfaceToTransducer", signalk_number(number_in(nav, "depth_m"))},
-          {"environment.depth.belowTransducer", signalk_number(number_in(nav, "altitude_m"))},
-          {"environment.depth.belowTransducer.standardError", signalk_number(number_in(nav, "altitude_std_m"))},
-          {"environment.depth.belowSurface", signalk_number(number_in(nav, "water_depth_m"))}};
+           signalk_object({{"drift", speed(set_north, set_east)}, {"setTrue", course(set_north, set_east)}})}};
 }
 
 SignalKModel::Values SignalKModel::compass(const json& compass) const {

@@ -10,12 +10,10 @@
 namespace navcal::web {
 namespace {
 
-using enum Exposition::Type;
-
 TEST(Exposition, AMetricWithoutSamplesLeavesNoLine) {
   Exposition out;
-  out.single("absent", gauge, "Nothing.", std::nullopt);
-  out.metric("also_absent", counter, "Nothing.");
+  out.single("absent", "Nothing.", std::nullopt);
+  out.metric("also_absent", "Nothing.");
   out.sample({}, std::numeric_limits<double>::quiet_NaN());
   out.sample({{"device", "gps"}}, std::numeric_limits<double>::infinity());
   EXPECT_EQ(out.text(), "");
@@ -23,7 +21,7 @@ TEST(Exposition, AMetricWithoutSamplesLeavesNoLine) {
 
 TEST(Exposition, HeadOnceAndBeforeTheFirstSample) {
   Exposition out;
-  out.metric("depth_meters", gauge, "Depth.");
+  out.metric("depth_meters", "Depth.");
   out.sample({}, std::nullopt);
   out.sample({{"device", "a"}}, 0.0);
   out.sample({{"device", "b"}, {"axis", "x"}}, -1.5);
@@ -34,7 +32,7 @@ TEST(Exposition, HeadOnceAndBeforeTheFirstSample) {
 
 TEST(Exposition, EscapesWhatTheFormatWants) {
   Exposition out;
-  out.metric("m", gauge, "a \"quote\", a \\ and\na line");
+  out.metric("m", "a \"quote\", a \\ and\na line");
   out.sample({{"l", "a \"quote\", a \\ and\na line"}}, 1.0);
   EXPECT_EQ(out.text(),
             "# HELP m a \"quote\", a \\\\ and\\na line\n# TYPE m gauge\n"
@@ -44,7 +42,7 @@ TEST(Exposition, EscapesWhatTheFormatWants) {
 TEST(Exposition, AnyBytesInALabelMakeOneLineOfValidUtf8) {
   for (int byte = 0; byte < 256; ++byte) {
     Exposition out;
-    out.metric("m", gauge, "M.");
+    out.metric("m", "M.");
     out.sample({{"l", std::string("<") + static_cast<char>(byte) + ">"}}, 1.0);
     const std::string line = out.text().substr(out.text().rfind("m{"));
     EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << byte;
@@ -57,7 +55,7 @@ TEST(Exposition, AnyBytesInALabelMakeOneLineOfValidUtf8) {
 
 TEST(Exposition, HistogramsAreCumulativeAndEndWithAllOfThem) {
   Exposition out;
-  out.metric("h", histogram, "H.");
+  out.metric("h", "H.");
   const std::array bounds{0.5, 1.0, 2.0};
   const std::array<std::uint64_t, 5> counts{1, 0, 4, 2, 3};
   out.histogram({{"d", "x"}}, bounds, counts, 7.5);
@@ -69,7 +67,7 @@ TEST(Exposition, HistogramsAreCumulativeAndEndWithAllOfThem) {
 
 TEST(Exposition, AHistogramThatWasCutShortKeepsItsBuckets) {
   Exposition out;
-  out.metric("h", histogram, "H.");
+  out.metric("h", "H.");
   const std::array bounds{1.0, 2.0};
   out.histogram({}, bounds, {}, std::nullopt);
   EXPECT_NE(out.text().find("h_bucket{le=\"2\"} 0\nh_bucket{le=\"+Inf\"} 0\nh_count 0\n"), std::string::npos)
