@@ -26,6 +26,11 @@ namespace navcal::base {
   return most + std::log(sum);
 }
 
+[[nodiscard]] inline double log_sum_exp(double a, double b) {
+  const double most = std::max(a, b);
+  return std::isinf(most) ? most : most + std::log1p(std::exp(std::min(a, b) - most));
+}
+
 [[nodiscard]] inline double log_mean_exp(std::span<const double> values) {
   return log_sum_exp(values) - std::log(static_cast<double>(values.size()));
 }

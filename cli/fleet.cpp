@@ -232,8 +232,6 @@ void add_fleet(CLI::App& app) {
   add_fleet_list(*command);
   add_fleet_merge(*command);
   add_fleet_causes(*command);
-  add_left_out(*command, "trial", kFleetTrialIs);
-  command->get_subcommand("trial")->group("");
 }
 
 }  // namespace navcal::cli

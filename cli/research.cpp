@@ -11,8 +11,6 @@ void add_research(CLI::App& app) {
       "Example: navcal research gap-trial --cases 32 --report trial.html");
   add_gap_trial(*research);
   research->get_subcommand("trial")->name("gap-trial");
-  add_left_out(*research, "fleet-trial", kFleetTrialIs);
-  research->get_subcommand("fleet-trial")->group("");
   add_validate_runs(*research);
   add_thesis(*research);
 }

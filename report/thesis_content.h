@@ -44,6 +44,14 @@ struct ThesisTable {
   std::vector<ThesisTablePart> parts;
 };
 
+/// A figure of the thesis that shows a path.
+struct PathFigure {
+  const char* id;
+  int path;
+  bool noisy;
+  const char* caption;
+};
+
 struct ThesisCurve {
   std::string name;
   SvgPlot::Ink ink = SvgPlot::Ink::first;

@@ -3,13 +3,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <ranges>
+#include <sstream>
 #include <stdexcept>
 
 #include "base/failure.h"
@@ -171,23 +173,6 @@ TrialCase swimming_case(const LayoutTrial& trial, int number,
       fmt::format("case {}: {} draws of its effects, and the vehicle was lost with each", number, kMostAttempts));
 }
 
-std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t\r"), text.size()));
-  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
-}
-
-/// The numbers of a value in TOML, a number or a list of them.
-std::vector<double> numbers_in(std::string_view value) {
-  std::vector<double> numbers;
-  for (std::size_t at = 0; (at = value.find_first_of("-.0123456789", at)) != std::string_view::npos;) {
-    double number = 0;
-    const char* const end = std::from_chars(value.data() + at, value.data() + value.size(), number).ptr;
-    at = std::max(static_cast<std::size_t>(end - value.data()), at + 1);
-    numbers.push_back(number);
-  }
-  return numbers;
-}
-
 }  // namespace
 
 LayoutVehicle drawn_vehicle(const LayoutTrial& trial, int number) {
@@ -279,29 +264,31 @@ std::vector<TrialCase> drawn_layout_cases(const LayoutTrial& trial, const std::v
 
 std::string data_sheet(const LayoutVehicle& vehicle) {
   const double error = vehicle.layout_error;
-  const std::map<std::string_view, double> shares{
+  const std::map<std::string, double> shares{
       {"mass_kg", error / 4},   {"inertia_kg_m2", error},   {"matrix", 2 * error}, {"linear", 2 * error},
       {"quadratic", 2 * error}, {"coefficient", 2 * error}, {"lag_s", 2 * error}};
   const double arm_m = (vehicle.craft.layout.gravity_centre_m - vehicle.craft.layout.buoyancy_centre_m).norm();
   std::string sheet;
-  for (std::string_view rest = vehicle.layout.text; !rest.empty();) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    const std::size_t equals = std::min(line.find('='), line.size());
-    const std::string_view key = trimmed(line.substr(0, equals));
-    const std::string_view value = line.substr(equals, line.find('#', equals) - equals);
+  std::istringstream lines(vehicle.layout.text);
+  for (std::string line; std::getline(lines, line);) {
+    toml::table one;
+    try {
+      one = toml::parse(line);
+    } catch (const toml::parse_error&) {  // a part of a list over several lines
+    }
+    const std::string key(one.empty() ? "" : one.begin()->first.str());
     if (key.ends_with("_std") || key.ends_with("_range")) continue;
-    sheet.append(line).append("\n");
+    sheet += line + '\n';
     if (const auto share = shares.find(key); share != shares.end()) {
-      std::vector<double> errors = numbers_in(value);
-      for (double& number : errors) number = std::abs(number) * share->second;
-      const bool is_list = value.find('[') < value.size();
-      if (!errors.empty())
-        sheet +=
-            fmt::format("{}_std = {}{}{}\n", key, is_list ? "[" : "", fmt::join(errors, ", "), is_list ? "]" : "");
+      const auto error = [&](const toml::node& number) { return std::abs(number.value_or(0.0)) * share->second; };
+      std::vector<double> errors;
+      if (const toml::array* list = one[key].as_array())
+        std::ranges::transform(*list, std::back_inserter(errors), error);
+      sheet += errors.empty() ? fmt::format("{}_std = {}\n", key, error(*one[key].node()))
+                              : fmt::format("{}_std = [{}]\n", key, fmt::join(errors, ", "));
     } else if (key == "gravity_centre_m") {
       sheet += fmt::format("{0}_std = [{1}, {1}, {1}]\n", key, arm_m * error);
-    } else if (key == "[[thruster]]") {
+    } else if (key == "thruster") {
       sheet += fmt::format("force_scale = 1\nforce_scale_std = {}\n", error);
     }
   }

@@ -66,14 +66,8 @@ void add_gap_watch(CLI::App& gap);
 void add_gap_trial(CLI::App& gap);
 void add_fleet_submit(CLI::App& fleet);
 void add_ports_send_calibration(CLI::App& ports);
-/// Stands for a command that is not in this program: `why`, behind the name and "is", says how to get it.
-void add_left_out(CLI::App& parent, const std::string& name,
-                  const std::string& why =
-                      "not in this build, which has what the demo needs. For all of navcal:\n"
-                      "  cmake --build --preset release --target navcal");
-inline constexpr const char* kFleetTrialIs =
-    "a program of its own: bench_fleet_trial\n  cmake --preset bench && cmake --build --preset bench --target "
-    "bench_fleet_trial";
+/// Stands for a command that is not in this program, and says how to get it.
+void add_left_out(CLI::App& parent, const std::string& name);
 
 /// All of them (written by cli/live/command_table.cmake).
 void add_commands(CLI::App& parent);

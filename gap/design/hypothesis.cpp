@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "base/statistics.h"
 #include "gap/inference/evidence.h"
 
 namespace navcal::gap {
@@ -82,12 +83,6 @@ double expected_separation_nats(const Hypothesis& truth, const Hypothesis& rival
   return std::max(0.0, divergence(truth, Predictive(truth, gram), rival, Predictive(rival, gram), gram));
 }
 
-double observed_separation_nats(const Hypothesis& one, const Hypothesis& other, const Eigen::MatrixXd& gram,
-                                const Eigen::VectorXd& score) {
-  return log_density(one, Predictive(one, gram), gram, score) -
-         log_density(other, Predictive(other, gram), gram, score);
-}
-
 double log_error_bound(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram) {
   std::vector<Predictive> predictives;
   for (const Hypothesis& each : hypotheses) predictives.emplace_back(each, gram);
@@ -101,10 +96,7 @@ double log_error_bound(std::span<const Hypothesis> hypotheses, const Eigen::Matr
     }
   }
   if (terms.empty()) return -std::numeric_limits<double>::infinity();
-  const double greatest = *std::max_element(terms.begin(), terms.end());
-  double sum = 0;
-  for (const double term : terms) sum += std::exp(term - greatest);
-  return greatest + std::log(sum);
+  return base::log_sum_exp(terms);
 }
 
 double probability_exact(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram, double named_from) {
@@ -135,10 +127,7 @@ double probability_exact(std::span<const Hypothesis> hypotheses, const Eigen::Ma
         logs.push_back(std::log(std::max(hypotheses[i].probability, 1e-12)) +
                        log_density(hypotheses[i], predictives[i], gram, score));
       }
-      const double greatest = *std::max_element(logs.begin(), logs.end());
-      double sum = 0;
-      for (const double each : logs) sum += std::exp(each - greatest);
-      if (std::exp(logs[truth] - greatest) / sum >= named_from) ++named;
+      if (std::exp(logs[truth] - base::log_sum_exp(logs)) >= named_from) ++named;
     }
     exact += of.probability * named / kOutcomes;
     total += of.probability;

@@ -37,12 +37,6 @@ struct Hypothesis {
 [[nodiscard]] double expected_separation_nats(const Hypothesis& truth, const Hypothesis& rival,
                                               const Eigen::MatrixXd& gram);
 
-/// Log Bayes factor, nats, for one hypothesis over another by a recording: the quantity whose expectation is
-/// expected_separation_nats(). `gram`, `score`: X^T X and X^T r of the recording's design, r referred to theta =
-/// 0.
-[[nodiscard]] double observed_separation_nats(const Hypothesis& one, const Hypothesis& other,
-                                              const Eigen::MatrixXd& gram, const Eigen::VectorXd& score);
-
 /// Upper bound of the probability that the most probable hypothesis is not the true one after the mission: the sum
 /// of sqrt(p_a p_b) exp(-B_ab) over all pairs (Bhattacharyya; here B = smaller divergence / 4), its logarithm.
 [[nodiscard]] double log_error_bound(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram);

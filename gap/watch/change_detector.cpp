@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/statistics.h"
 #include "gap/inference/evidence.h"
 #include "gap/thresholds.h"
 
@@ -21,12 +22,6 @@ constexpr double kThinning = 0.5;
 /// Factor on the scatter of a channel's power among windows. Powers are not exactly gamma-distributed, and a wider
 /// distribution is the careful choice.
 constexpr double kScatterFactor = 2;
-
-double log_sum(double a, double b) {
-  const double greater = std::max(a, b);
-  if (greater == kMinusInfinity) return greater;
-  return greater + std::log1p(std::exp(std::min(a, b) - greater));
-}
 
 }  // namespace
 
@@ -94,7 +89,7 @@ void ChangeDetector::score_onsets() {
         // Half the square of what the effect explains, less the error that the model may have.
         const double explained = std::max(0.0, std::sqrt(0.5 * half.dot(solved)) - allowed);
         const double log_factor = explained * explained - own_factor.matrixLLT().diagonal().array().log().sum();
-        scored.log_factor = log_sum(scored.log_factor, log_factor);
+        scored.log_factor = base::log_sum_exp(scored.log_factor, log_factor);
         if (log_factor > best) {
           best = log_factor;
           scored.change = spike_.segment(first, count).cwiseProduct(slab.cwiseProduct(solved));
@@ -105,7 +100,7 @@ void ChangeDetector::score_onsets() {
       Eigen::VectorXd values = Eigen::VectorXd::Zero(spike_.size());
       values.segment(first, count) = scored.change;
       if (strength_of(library_, effect, values) > kLargestStrength) scored.log_factor = kMinusInfinity;
-      log_statistic_ = log_sum(log_statistic_, scored.log_factor - log_effects);
+      log_statistic_ = base::log_sum_exp(log_statistic_, scored.log_factor - log_effects);
       scored_.push_back(std::move(scored));
     }
   }
@@ -120,8 +115,8 @@ std::vector<ChangeDetector::Cause> ChangeDetector::causes() const {
   double log_total = kMinusInfinity;
   for (const Scored& scored : scored_) {
     Sum& sum = sums[scored.effect];
-    sum.log_all = log_sum(sum.log_all, scored.log_factor);
-    log_total = log_sum(log_total, scored.log_factor);
+    sum.log_all = base::log_sum_exp(sum.log_all, scored.log_factor);
+    log_total = base::log_sum_exp(log_total, scored.log_factor);
     if (scored.log_factor > sum.log_best) {
       sum.log_best = scored.log_factor;
       sum.onset = scored.onset;
@@ -193,13 +188,13 @@ void PowerDetector::take(const Eigen::VectorXd& power) {
     if (!std::isfinite(power[c]) || !(shape_[c] > 0)) continue;
     const double log_ratio = shape_[c] * (power[c] / mean_[c] * (1 - 1 / kRise) - std::log(kRise));
     // R = (1 + R) times the likelihood ratio.
-    log_channels_[c] = std::max(kNothing, log_sum(0, log_channels_[c]) + log_ratio);
+    log_channels_[c] = std::max(kNothing, base::log_sum_exp(0, log_channels_[c]) + log_ratio);
   }
 }
 
 double PowerDetector::log_statistic() const {
   double log_all = kMinusInfinity;
-  for (const double one : log_channels_) log_all = log_sum(log_all, one);
+  for (const double one : log_channels_) log_all = base::log_sum_exp(log_all, one);
   return log_all - std::log(static_cast<double>(std::max<Eigen::Index>(1, log_channels_.size())));
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/durations.h"
 #include "base/enum_name.h"
+#include "base/statistics.h"
 #include "gap/thresholds.h"
 #include "gap/verdict/where.h"
 
@@ -126,8 +127,7 @@ void Watch::judge_window() {
 
 double Watch::evidence_nats() const {
   // The mean of both statistics, whose expectations without a gap are at most the number of windows.
-  const double a = change_.log_statistic(), b = power_.log_statistic();
-  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))) - std::log(2.0);
+  return base::log_sum_exp(change_.log_statistic(), power_.log_statistic()) - std::log(2.0);
 }
 
 void Watch::take(Window& window, std::int64_t end_ns) {

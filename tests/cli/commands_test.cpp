@@ -81,20 +81,6 @@ TEST(Commands, OldNamesOfTheResearchCommandsStay) {
     EXPECT_EQ(options_of(*app.get_subcommand(name)), options_of(*research.get_subcommand(name)));
 }
 
-TEST(Commands, NamesOfTheTrialOfFleetsSayWhereItIsNow) {
-  for (std::vector<std::string> called :
-       {std::vector<std::string>{"score", "trial", "fleet"}, {"--seed=7", "record", "fleet-trial", "research"}}) {
-    CLI::App app("", "navcal");
-    add_commands(app);
-    try {
-      app.parse(called);  // the last is the first, and it is left empty
-      ADD_FAILURE() << "the trial did something";
-    } catch (const base::Failure& failure) {
-      EXPECT_NE(std::string(failure.what()).find("is a program of its own: bench_fleet_trial"), std::string::npos);
-    }
-  }
-}
-
 // A file with a subcommand whose line in cli/live/commands.h was forgotten compiles, and nobody could call it.
 TEST(Commands, EachSourceOfOneIsListed) {
   CLI::App app("", "navcal");

@@ -10,6 +10,7 @@
 #include "gap/design/planner.h"
 #include "gap/inference/biases.h"
 #include "gap/inference/subset_evidence.h"
+#include "tests/gap/design/observed_separation.h"
 #include "tests/gap/design/planned_question.h"
 #include "tests/gap/simulated_mission.h"
 #include "tests/support/temporary_folder.h"

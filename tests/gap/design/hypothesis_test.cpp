@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/gap/design/observed_separation.h"
+
 namespace navcal::gap::test {
 namespace {
 
