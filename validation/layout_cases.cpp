@@ -280,11 +280,11 @@ std::string data_sheet(const LayoutVehicle& vehicle) {
     if (key.ends_with("_std") || key.ends_with("_range")) continue;
     sheet += line + '\n';
     if (const auto share = shares.find(key); share != shares.end()) {
-      const auto error = [&](const toml::node& number) { return std::abs(number.value_or(0.0)) * share->second; };
+      const auto error_of = [&](const toml::node& number) { return std::abs(number.value_or(0.0)) * share->second; };
       std::vector<double> errors;
       if (const toml::array* list = one[key].as_array())
-        std::ranges::transform(*list, std::back_inserter(errors), error);
-      sheet += errors.empty() ? fmt::format("{}_std = {}\n", key, error(*one[key].node()))
+        std::ranges::transform(*list, std::back_inserter(errors), error_of);
+      sheet += errors.empty() ? fmt::format("{}_std = {}\n", key, error_of(*one[key].node()))
                               : fmt::format("{}_std = [{}]\n", key, fmt::join(errors, ", "));
     } else if (key == "gravity_centre_m") {
       sheet += fmt::format("{0}_std = [{1}, {1}, {1}]\n", key, arm_m * error);
