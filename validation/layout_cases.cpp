@@ -266,7 +266,7 @@ std::string data_sheet(const LayoutVehicle& vehicle) {
   const double error = vehicle.layout_error;
   const std::map<std::string, double> shares{
       {"mass_kg", error / 4},   {"inertia_kg_m2", error},   {"matrix", 2 * error}, {"linear", 2 * error},
-      {"quadratic", 2 * error}, {"coefficient", 2 * error}, {"lag_s", 2 * error}};
+      {"quadratic", 2 * error}, {"coefficient", 2 * error}, {"lag_s", 2 * error},  {"force_scale", error}};
   const double arm_m = (vehicle.craft.layout.gravity_centre_m - vehicle.craft.layout.buoyancy_centre_m).norm();
   std::string sheet;
   std::istringstream lines(vehicle.layout.text);
@@ -280,7 +280,9 @@ std::string data_sheet(const LayoutVehicle& vehicle) {
     if (key.ends_with("_std") || key.ends_with("_range")) continue;
     sheet += line + '\n';
     if (const auto share = shares.find(key); share != shares.end()) {
-      const auto error_of = [&](const toml::node& number) { return std::abs(number.value_or(0.0)) * share->second; };
+      const auto error_of = [&](const toml::node& number) {
+        return std::abs(number.value_or(0.0)) * share->second;
+      };
       std::vector<double> errors;
       if (const toml::array* list = one[key].as_array())
         std::ranges::transform(*list, std::back_inserter(errors), error_of);
@@ -288,7 +290,7 @@ std::string data_sheet(const LayoutVehicle& vehicle) {
                               : fmt::format("{}_std = [{}]\n", key, fmt::join(errors, ", "));
     } else if (key == "gravity_centre_m") {
       sheet += fmt::format("{0}_std = [{1}, {1}, {1}]\n", key, arm_m * error);
-    } else if (key == "thruster") {
+    } else if (key == "thruster" && vehicle.layout.text.find("\nforce_scale = ") == std::string::npos) {
       sheet += fmt::format("force_scale = 1\nforce_scale_std = {}\n", error);
     }
   }
