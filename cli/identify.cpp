@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,7 +24,7 @@ namespace {
 struct IdentifyCommandOptions : WindowOptions {
   std::string vehicle, output, json, report, config;
   std::vector<std::string> files, held_out;
-  bool no_advice = false;
+  bool no_advice = false, force = false;
 };
 
 std::vector<std::filesystem::path> inputs_of(const IdentifyCommandOptions& options) {
@@ -48,10 +50,14 @@ identify::Identification identification_of(const IdentifyCommandOptions& options
 
 void write_identification(const IdentifyCommandOptions& options, const identify::Identification& found) {
   tell_remarks("navcal", found.warnings);
-  write_result(options.output, config::layout_file(found.layout));
+  if (found.worse.empty() || options.force) write_result(options.output, config::layout_file(found.layout));
   if (!options.report.empty()) write_result(options.report, report::identify_page(found));
   give_answer(options.json, options.json.empty() ? std::string() : report::identify_json(found),
               report::identify_text(found));
+  if (!found.worse.empty() && !options.force)
+    throw base::Failure(base::Exit::failed,
+                        fmt::format("{} is not written: on the held-out recordings {}; --force writes it",
+                                    options.output, found.worse));
 }
 
 void run_identify(const IdentifyCommandOptions& options) {
@@ -82,6 +88,8 @@ void add_identify(CLI::App& app) {
              "configuration of all recordings, instead of their own");
   add_window(*command, *options);
   command->add_flag("--no-advice", options->no_advice, "do not look for manoeuvres that would tell more");
+  command->add_flag("--force", options->force,
+                    "write the layout even where it is worse on the held-out recordings than the file's numbers");
   command->footer(
       "docs/identify.md describes the method, the file and the JSON keys.\n\n"
       "Example: navcal identify --vehicle datasheet.toml --holdout c.mcap -o vehicle.toml a.mcap b.mcap");

@@ -80,8 +80,8 @@ class Navigator {
   /// Velocity of an instrument at that place, by the turning of the vehicle, in this frame.
   [[nodiscard]] Eigen::Vector3d arm_velocity_m_s(const Pose& pose, const Eigen::Vector3d& position_m,
                                                  VelocityFrame frame) const;
-  template <class VelocityReading>
-  bool hold(HeldVelocity& held, const VelocityReading& reading, const Pose& pose, SpeedSource source);
+  template <bool kOverBottom>
+  bool hold(HeldVelocity& held, const VelocityReading<kOverBottom>& reading, const Pose& pose, SpeedSource source);
   [[nodiscard]] std::optional<HeldVelocity::Expected> expected(const GroundVelocityReading& reading,
                                                                const Pose& pose) const;
   [[nodiscard]] std::optional<HeldVelocity::Expected> expected(const WaterVelocityReading& reading,

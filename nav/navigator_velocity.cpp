@@ -19,8 +19,8 @@ constexpr double kMostGaugeDepth_m = 12'000;
 /// Half the time over which the rates of turn are taken from the attitude. Frames of the card are 50 ms apart.
 constexpr std::int64_t kHalfTurn_ns = 100'000'000;
 
-template <class VelocityReading>
-bool is_plausible_velocity(const VelocityReading& r) {
+template <bool kOverBottom>
+bool is_plausible_velocity(const VelocityReading<kOverBottom>& r) {
   return (r.velocity_m_s.array().abs() <= kMostMeasuredSpeed_m_s).all() && r.std_m_s >= kLeastMeasuredStd_m_s &&
          r.std_m_s <= kMostMeasuredStd_m_s;
 }
@@ -66,8 +66,9 @@ void Navigator::take(const DepthReading& reading) {
 
 /// Corrects the way since the measurement before: the velocity that was held did not change with time, the true
 /// one did, at an even pace.
-template <class VelocityReading>
-bool Navigator::hold(HeldVelocity& held, const VelocityReading& reading, const Pose& pose, SpeedSource source) {
+template <bool kOverBottom>
+bool Navigator::hold(HeldVelocity& held, const VelocityReading<kOverBottom>& reading, const Pose& pose,
+                     SpeedSource source) {
   const Vector3d arm_m_s = arm_velocity_m_s(pose, reading.position_m, reading.frame);
   const auto step = held.take(reading.time_ns, reading.velocity_m_s - arm_m_s, reading.frame, reading.std_m_s,
                               expected(reading, pose));

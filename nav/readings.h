@@ -49,23 +49,18 @@ enum class VelocityFrame : std::uint8_t {
   earth,  ///< north, east, down, as the instrument's own compass has it
 };
 
-/// Velocity over the bottom, at the place of the instrument: a DVL with bottom lock.
-struct GroundVelocityReading {
+/// Velocity at the place of the instrument: over the bottom (a DVL with bottom lock), or through the water some
+/// metres from the vehicle.
+template <bool kOverBottom>
+struct VelocityReading {
   std::int64_t time_ns = 0;
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
   VelocityFrame frame = VelocityFrame::body;
   double std_m_s = 0;                                    ///< random, each axis
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the instrument, from the vehicle's origin
 };
-
-/// Velocity through the water some metres from the vehicle, at the place of the instrument.
-struct WaterVelocityReading {
-  std::int64_t time_ns = 0;
-  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
-  VelocityFrame frame = VelocityFrame::body;
-  double std_m_s = 0;                                    ///< random, each axis
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the instrument, from the vehicle's origin
-};
+using GroundVelocityReading = VelocityReading<true>;
+using WaterVelocityReading = VelocityReading<false>;
 
 /// Depth of a gauge that is not on the card with the gyros.
 struct DepthReading {

@@ -20,12 +20,9 @@ constexpr double kLarger = 1.2;
 
 RoleSet roles_of(const instruments::CompassSample& compass) {
   RoleSet roles;
-  if (compass.heading_rad) roles.add(Role::heading);
+  if (compass.heading_rad || compass.heading_calibrated_rad) roles.add(Role::heading);
   if (compass.heading_rad && compass.heading_is_true) roles.add(Role::heading_reference);
-  if (compass.field_body_uT) {
-    roles.add(Role::field);
-    roles.add(Role::heading);  // which follows from the field and the tilt
-  }
+  if (compass.field_body_uT) roles.add(Role::field);
   return roles;
 }
 

@@ -33,8 +33,6 @@ Stages::Stages(const config::Settings& settings)
 }
 
 void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, Sink& sink) {
-  take_sources(sample, sink);
-  take_field(sample, sink);
   std::optional<instruments::Sample> filled;
   if (tilt_) {
     tilt_->take(sample);
@@ -43,6 +41,8 @@ void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, 
   const instruments::Sample& original = filled ? *filled : sample;
   instruments::Sample corrected = original;
   if (calibration_) calibration_->correct(corrected);
+  take_sources(corrected, sink);  // a field alone is no heading before it is calibrated
+  take_field(corrected, sink);
   sink.on_sample(corrected);
   const auto placed = navigation_ ? navigation_->at_origin(corrected) : std::nullopt;
   if (navigation_) {

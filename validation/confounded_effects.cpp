@@ -13,57 +13,50 @@ namespace {
 
 using reference::Trace;
 
-/// Names of channels that an enumerator of reference::Trace stands for.
-std::span<const std::string_view> channels_of(Trace trace) {
-  using Channels = std::vector<std::string_view>;
-  static const std::map<Trace, Channels> kAll{
-      {Trace::field, {"compass.field", "compass.heading"}},
-      {Trace::heading, {"compass.heading", "compass.field", "gps.velocity", "gps.position"}},
-      {Trace::tilt, {"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}},
-      {Trace::roll, {"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}},
-      {Trace::rates,
-       {"imu.gyro", "compass.heading", "compass.tilt", "compass.field", "vehicle.yaw_rate", "vehicle.pitch_rate"}},
-      {Trace::force, {"imu.accel", "compass.tilt", "vehicle.speed", "gps.velocity", "gps.position"}},
-      {Trace::card,
-       {"imu.gyro", "imu.accel", "imu.depth", "compass.heading", "compass.tilt", "compass.field",
-        "vehicle.yaw_rate", "vehicle.pitch_rate", "vehicle.depth_rate"}},
-      {Trace::depth, {"imu.depth", "vehicle.depth_rate"}},
-      {Trace::fixes, {"gps.position", "gps.velocity"}},
-      {Trace::drift, {"gps.position", "gps.velocity", "vehicle.speed"}},
-      {Trace::thrust,
-       {"vehicle.speed", "gps.velocity", "gps.position", "imu.accel", "imu.gyro", "vehicle.pitch_rate",
-        "vehicle.depth_rate", "vehicle.yaw_rate"}},
-      {Trace::fins,
-       {"vehicle.yaw_rate", "vehicle.pitch_rate", "imu.gyro", "compass.heading", "vehicle.depth_rate", "imu.accel",
-        "compass.tilt"}},
-      {Trace::rise, {"vehicle.depth_rate", "imu.depth", "vehicle.pitch_rate"}},
-      {Trace::supply, {"vehicle.speed", "imu.accel", "imu.gyro", "imu.depth", "gps.velocity", "gps.position"}},
-      {Trace::waves, {"vehicle.yaw_rate", "imu.accel", "imu.gyro", "compass.tilt", "gps.velocity"}},
-  };
-  return kAll.at(trace);
-}
+/// Names of the channels that an enumerator of reference::Trace stands for, and the sources of which it is an
+/// error, by the equations. A lag of the field or a turned magnetometer is an error of both field and heading.
+/// What acts on the whole inertial card is one of each of its instruments.
+struct Traced {
+  std::vector<std::string_view> channels, sources;
+};
 
-/// Sources of which an enumerator of reference::Trace is an error, by the equations. A lag of the field or a
-/// turned magnetometer is an error of both field and heading. What acts on the whole inertial card is one of each
-/// of its instruments.
-std::span<const std::string_view> sources_of(Trace trace) {
-  using Sources = std::vector<std::string_view>;
-  static const std::map<Trace, Sources> kAll{
-      {Trace::field, {"compass.field"}},
-      {Trace::heading, {"compass.heading", "compass.field"}},
-      {Trace::tilt, {"compass.tilt"}},
-      {Trace::roll, {"vehicle.moments"}},
-      {Trace::rates, {"imu.gyro"}},
-      {Trace::force, {"imu.accel"}},
-      {Trace::card, {"imu.gyro", "imu.accel", "imu.depth"}},
-      {Trace::depth, {"imu.depth"}},
-      {Trace::fixes, {"gps"}},
-      {Trace::drift, {"water.current"}},
-      {Trace::thrust, {"vehicle.thrust"}},
-      {Trace::fins, {"vehicle.moments"}},
-      {Trace::rise, {"vehicle.heave"}},
-      {Trace::supply, {"vehicle.thrust", "imu.gyro", "imu.accel", "imu.depth"}},
-      {Trace::waves, {"vehicle.moments", "vehicle.heave"}},
+const Traced& traced(Trace trace) {
+  static const std::map<Trace, Traced> kAll{
+      {Trace::field, {{"compass.field", "compass.heading"}, {"compass.field"}}},
+      {Trace::heading,
+       {{"compass.heading", "compass.field", "gps.velocity", "gps.position"},
+        {"compass.heading", "compass.field"}}},
+      {Trace::tilt,
+       {{"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}, {"compass.tilt"}}},
+      {Trace::roll,
+       {{"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}, {"vehicle.moments"}}},
+      {Trace::rates,
+       {{"imu.gyro", "compass.heading", "compass.tilt", "compass.field", "vehicle.yaw_rate", "vehicle.pitch_rate"},
+        {"imu.gyro"}}},
+      {Trace::force,
+       {{"imu.accel", "compass.tilt", "vehicle.speed", "gps.velocity", "gps.position"}, {"imu.accel"}}},
+      {Trace::card,
+       {{"imu.gyro", "imu.accel", "imu.depth", "compass.heading", "compass.tilt", "compass.field",
+         "vehicle.yaw_rate", "vehicle.pitch_rate", "vehicle.depth_rate"},
+        {"imu.gyro", "imu.accel", "imu.depth"}}},
+      {Trace::depth, {{"imu.depth", "vehicle.depth_rate"}, {"imu.depth"}}},
+      {Trace::fixes, {{"gps.position", "gps.velocity"}, {"gps"}}},
+      {Trace::drift, {{"gps.position", "gps.velocity", "vehicle.speed"}, {"water.current"}}},
+      {Trace::thrust,
+       {{"vehicle.speed", "gps.velocity", "gps.position", "imu.accel", "imu.gyro", "vehicle.pitch_rate",
+         "vehicle.depth_rate", "vehicle.yaw_rate"},
+        {"vehicle.thrust"}}},
+      {Trace::fins,
+       {{"vehicle.yaw_rate", "vehicle.pitch_rate", "imu.gyro", "compass.heading", "vehicle.depth_rate",
+         "imu.accel", "compass.tilt"},
+        {"vehicle.moments"}}},
+      {Trace::rise, {{"vehicle.depth_rate", "imu.depth", "vehicle.pitch_rate"}, {"vehicle.heave"}}},
+      {Trace::supply,
+       {{"vehicle.speed", "imu.accel", "imu.gyro", "imu.depth", "gps.velocity", "gps.position"},
+        {"vehicle.thrust", "imu.gyro", "imu.accel", "imu.depth"}}},
+      {Trace::waves,
+       {{"vehicle.yaw_rate", "imu.accel", "imu.gyro", "compass.tilt", "gps.velocity"},
+        {"vehicle.moments", "vehicle.heave"}}},
   };
   return kAll.at(trace);
 }
@@ -92,14 +85,16 @@ std::span<const std::string_view> families_of(std::string_view foreign) {
 std::vector<TrialSignature> all_signatures() {
   std::vector<TrialSignature> all;
   for (const reference::EffectKind& kind : reference::library_effects()) {
-    all.push_back({kind.name, {}, channels_of(kind.trace), sources_of(kind.trace)});
+    const Traced& of = traced(kind.trace);
+    all.push_back({kind.name, {}, of.channels, of.sources});
     if (const auto effect = sim::make_effect(kind.name)) {
       const auto confounders = effect->description().confounders;
       all.back().confounders.assign(confounders.begin(), confounders.end());
     }
   }
   for (const reference::EffectKind& kind : reference::foreign_effects()) {
-    all.push_back({kind.name, {}, channels_of(kind.trace), sources_of(kind.trace), families_of(kind.name)});
+    const Traced& of = traced(kind.trace);
+    all.push_back({kind.name, {}, of.channels, of.sources, families_of(kind.name)});
   }
   return all;
 }

@@ -20,6 +20,7 @@ constexpr double kPoorFit = 3;       ///< residuals over noise
 constexpr double kLate = 0.06;       ///< s
 constexpr double kApart_sigma = 3;   ///< of two starts
 constexpr double kNoBetter = 0.999;  ///< held-out residuals after over before
+constexpr double kWorse = 1.1;       ///< errors of the held-out recordings after over before
 constexpr double kFewPerChannel = 20;
 /// Of readings, s. Filtered or interpolated ones say less than their number: what they call the vehicle's is then
 /// not what one reading a second says, and the thinner ones count.
@@ -152,10 +153,15 @@ void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate
     answer.warnings.push_back(fmt::format("the fit has not settled within {} steps", answer.iterations));
 }
 
-/// Where a regression predicts the held-out recordings better.
-void warn_of_predictions(const IdentifyRequest& request, Identification& answer) {
+/// Where a regression predicts the held-out recordings better, or the file's own numbers do.
+void judge_predictions(const IdentifyRequest& request, Identification& answer) {
   try {
     const Prediction of = predict({answer.layout, request.held_out, request.recordings}, [](double) {});
+    const Prediction before = predict({request.prior, request.held_out, request.recordings}, [](double) {});
+    if (of.layout_error > kWorse * before.layout_error)
+      answer.worse = fmt::format("its predictions are off by {:.3g}, by {:.3g} with the numbers of the file ({})",
+                                 of.layout_error, before.layout_error,
+                                 of.is_steered ? "velocity after 1 s, m/s" : "position after 10 s, m");
     for (const auto& [is_worse, what] : {std::pair{of.worse_than_linear, "a linear regression"},
                                          std::pair{of.worse_than_hold, "holding the velocity"}})
       if (is_worse)
@@ -241,7 +247,9 @@ Identification identify(const IdentifyRequest& request, const FitProgress& progr
       answer.warnings.push_back(
           fmt::format("the fit does not improve the held-out recordings: residuals {:.3f} before, {:.3f} after",
                       rms.before, rms.after));
-    warn_of_predictions(request, answer);
+    judge_predictions(request, answer);
+    if (rms.after > kWorse * rms.before)
+      answer.worse = "its residuals are larger than with the numbers of the file";
   }
   if (request.advise && !answer.directions.empty())
     answer.manoeuvres = advised_manoeuvres(problem, found, request.settings, progress);

@@ -176,8 +176,9 @@ void judge(Prediction& all) {
   all.is_steered = farthest.starts > 0 && of(farthest.position_m, Predictor::still) < kSteered * other;
   const bool by_velocity = all.is_steered || all.errors[1].starts == 0;
   const auto& row = by_velocity ? all.errors[0].velocity_m_s : all.errors[1].position_m;
-  all.worse_than_linear = of(row, Predictor::layout) > of(row, Predictor::linear);
-  all.worse_than_hold = of(row, Predictor::layout) > of(row, Predictor::hold);
+  all.layout_error = of(row, Predictor::layout);
+  all.worse_than_linear = all.layout_error > of(row, Predictor::linear);
+  all.worse_than_hold = all.layout_error > of(row, Predictor::hold);
 }
 
 /// The ways to predict that there are.
