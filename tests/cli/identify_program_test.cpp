@@ -59,6 +59,25 @@ TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {
   EXPECT_NE(said("err").find("s of it are in a.cap as well, so it is left out"), std::string::npos) << said("err");
 }
 
+// Recordings of a vehicle that is not that of the others.
+TEST_F(IdentifyProgram, ALayoutThatIsWorseThanTheFileIsNotWritten) {
+  config::Layout prior = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml");
+  prior.uncertainties = {{"damping.axial.coefficient", 0.2, {}}};
+  std::ofstream(folder_ / "prior.toml") << config::layout_file(prior);
+  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 5 --effect thrust_scale=6 -o a.cap"),
+            0)
+      << said("err");
+  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 6 -o b.cap"), 0) << said("err");
+  const std::string identify = "identify --no-advice --vehicle prior.toml --holdout b.cap -o fit.toml a.cap";
+  EXPECT_EQ(run_navcal(identify), 1) << said("out");
+  EXPECT_NE(said("err").find("fit.toml is not written: on the held-out recordings its "), std::string::npos)
+      << said("err");
+  EXPECT_NE(said("out").find("damping.axial.coefficient"), std::string::npos) << "the answer is shown";
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fit.toml"));
+  EXPECT_EQ(run_navcal(identify + " --force"), 0) << said("err");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "fit.toml"));
+}
+
 TEST_F(IdentifyProgram, ALayoutIsJudgedByItsPredictions) {
   write_prior();
   ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 5 -o a.cap"), 0) << said("err");

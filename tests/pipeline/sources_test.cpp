@@ -100,6 +100,25 @@ TEST(Sources, LinesWithoutAHeadingAreNone) {
   EXPECT_FALSE(roles_of(fix(0, 0)).has(Role::velocity)) << "it has none";
 }
 
+// An autopilot's log has its compass without a heading, and its heading.
+TEST(Sources, AFieldThatIsNotCalibratedIsNoHeading) {
+  instruments::Sample field = at(0, 0.1);
+  instruments::CompassSample compass;
+  compass.field_body_uT = instruments::Vector3{20, 0, 40};
+  field.value = compass;
+  EXPECT_TRUE(roles_of(field).has(Role::field));
+  EXPECT_FALSE(roles_of(field).has(Role::heading));
+  Sources sources(with({Protocol::samples, Protocol::samples}));
+  EXPECT_TRUE(take(sources, heading(1, 0)));
+  (void)sources.take(field);
+  EXPECT_EQ(sources.serving()[Role::heading], 1);
+  EXPECT_EQ(sources.serving()[Role::field], 0);
+  compass.heading_calibrated_rad = 1;
+  field.value = compass;
+  (void)sources.take(field);
+  EXPECT_EQ(sources.serving()[Role::heading], 0) << "the first port, now that it has one";
+}
+
 TEST(Sources, AnInstrumentThatAlwaysSaysItComesBeforeNmea) {
   const auto settings = with({Protocol::nmea, Protocol::tcm2, Protocol::nmea});
   EXPECT_EQ(candidates(settings, Role::heading), (std::vector<std::uint16_t>{1, 0, 2}));
