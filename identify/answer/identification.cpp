@@ -20,7 +20,8 @@ constexpr double kPoorFit = 3;       ///< residuals over noise
 constexpr double kLate = 0.06;       ///< s
 constexpr double kApart_sigma = 3;   ///< of two starts
 constexpr double kNoBetter = 0.999;  ///< held-out residuals after over before
-constexpr double kWorse = 1.1;       ///< errors of the held-out recordings after over before
+constexpr double kWorse = 1.01;      ///< likewise: the fit has made it worse
+constexpr double kFarther = 1.5;     ///< errors of held-out predictions after over before
 constexpr double kFewPerChannel = 20;
 /// Of readings, s. Filtered or interpolated ones say less than their number: what they call the vehicle's is then
 /// not what one reading a second says, and the thinner ones count.
@@ -158,7 +159,7 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
   try {
     const Prediction of = predict({answer.layout, request.held_out, request.recordings}, [](double) {});
     const Prediction before = predict({request.prior, request.held_out, request.recordings}, [](double) {});
-    if (of.layout_error > kWorse * before.layout_error)
+    if (of.layout_error > kFarther * before.layout_error)
       answer.worse = fmt::format("its predictions are off by {:.3g}, by {:.3g} with the numbers of the file ({})",
                                  of.layout_error, before.layout_error,
                                  of.is_steered ? "velocity after 1 s, m/s" : "position after 10 s, m");
