@@ -131,30 +131,36 @@ class StartUpMavlink final : public StartUp {
         co_await wait(base::kSecond_ns, [this](const protocols::Frame&) { return vehicle_.has_value(); });
       while (now_ns() - heard_ns_ < kAutopilotLost_ns) {
         restarted_ = false;
-        refused_.clear();
-        unanswered_.clear();
-        bool has_high_resolution = false;
+        std::string refused, unanswered;
+        bool has_high_resolution = false, is_answering = false;
+        if (!in_service()) enter(fmt::format("asking system {} for its messages", *vehicle_));
         co_await send(heartbeat(), 0);
         for (const std::string& name : names_) {
           parameter_.clear();
           const bool is_known = co_await ask(reading(name), 3, base::kSecond_ns / 2,
                                              [&](const protocols::Frame&) { return parameter_ == name; });
           if (!is_known && name == names_.front()) break;  // not ArduPilot
+          is_answering = true;
         }
         for (const Request& request : requests_) {
           if (request.first == imu_ && has_high_resolution) continue;
           co_await send(heartbeat(), 0);
           result_ = kNoAnswer;
-          const bool is_answered = co_await ask(interval(request), 3, base::kSecond_ns / 2,
+          const bool is_answered = co_await ask(interval(request), is_answering ? 3 : 1, base::kSecond_ns / 2,
                                                 [this](const protocols::Frame&) { return result_ != kNoAnswer; });
           const bool is_accepted = is_answered && result_ == 0;
+          is_answering |= is_answered;
           if (request.first == kHighresImu)
             has_high_resolution = is_accepted;
           else if (!is_accepted)
-            note(is_answered ? refused_ : unanswered_, std::string(mavlink::message_of(request.first)->name));
+            note(is_answered ? refused : unanswered, std::string(mavlink::message_of(request.first)->name));
         }
+        // Whole: each change of the words is an event.
+        refused_ = refused;
+        unanswered_ = is_answering ? unanswered : "";
         enter(fmt::format(
-                  "running, system {}; the compass's own calibration {}", *vehicle_,
+                  "running, system {}{}; the compass's own calibration {}", *vehicle_,
+                  is_answering ? "" : "; nothing answers, navcal goes on by what comes",
                   compass_.measured_uT(unit_, {}, 0.0) ? "is undone" : "is not known, and stays in the field"),
               true);
         for (int i = 0; i < kHeartbeatsOfRound && !restarted_ && now_ns() - heard_ns_ < kAutopilotLost_ns; ++i)

@@ -217,6 +217,7 @@ struct FakeAutopilot {
   float motor_source = 0;
   std::vector<std::uint32_t> asked{};
   int heartbeats = 0;
+  std::uint32_t ignored = 0;  ///< message that is not answered for
 
   void operator()(test::Dialogue& dialogue, const std::string& command) {
     const auto found =
@@ -236,7 +237,7 @@ struct FakeAutopilot {
     EXPECT_EQ(payload.at<std::uint16_t>(28), 511);
     asked.push_back(static_cast<std::uint32_t>(payload.at<float>(0)));
     const std::uint8_t result = asked.back() == 105 && !has_high_resolution ? 3 : 0;
-    if (!is_deaf) say(dialogue, 77, Fields{}.put(std::uint16_t{511}).put(result));
+    if (!is_deaf && asked.back() != ignored) say(dialogue, 77, Fields{}.put(std::uint16_t{511}).put(result));
   }
   static void say(test::Dialogue& dialogue, std::uint32_t id, const Fields& fields) {
     const auto frame = mavlink::encode(id, {1, 1, 0}, fields.bytes);
@@ -258,6 +259,15 @@ struct MavlinkDialogue : testing::Test {
       FakeAutopilot::say(dialogue, 30, Fields{}.put(1000 * (boot_s + static_cast<std::uint32_t>(i))).put(0.5F));
       dialogue.run_for(base::kSecond_ns);
     }
+  }
+  /// Each change of the state is an event: the states of so many seconds.
+  std::vector<std::string> states_of(std::uint32_t seconds) {
+    std::vector<std::string> states;
+    for (std::uint32_t i = 0; i < seconds; ++i) {
+      if (states.empty() || states.back() != dialogue.state()) states.push_back(dialogue.state());
+      live(1, 100 + i);
+    }
+    return states;
   }
 };
 
@@ -325,14 +335,29 @@ TEST_F(MavlinkDialogue, AsksAgainAfterARestartAndInTime) {
   EXPECT_EQ(autopilot.asked.size(), 18U) << "a ground station may have asked for other rates";
 }
 
-TEST_F(MavlinkDialogue, SaysWhatIsNotAnsweredAndThatItIsSilent) {
+TEST_F(MavlinkDialogue, SaysOnceWhatIsNotAnsweredAndThatItIsSilent) {
+  autopilot.ignored = 24;
+  dialogue.begin();
+  EXPECT_EQ(states_of(600),
+            (std::vector<std::string>{
+                "waiting for the heartbeat of an autopilot", "asking system 1 for its messages",
+                "running, system 1; the compass's own calibration is undone; no answer to: GPS_RAW_INT"}));
+  dialogue.run_for(50 * base::kSecond_ns);
+  EXPECT_NE(dialogue.state().find("waiting for the heartbeat"), std::string::npos) << dialogue.state();
+}
+
+// A router's server endpoint sends and takes nothing. The requests without answer were said anew each round.
+TEST_F(MavlinkDialogue, ALinkOfOneWayIsSaidOnceAndServes) {
   autopilot.is_deaf = true;
   dialogue.begin();
-  live(25, 100);
-  EXPECT_NE(dialogue.state().find("no answer to: RAW_IMU, SERVO_OUTPUT_RAW"), std::string::npos)
-      << dialogue.state();
-  dialogue.run_for(30 * base::kSecond_ns);
-  EXPECT_NE(dialogue.state().find("waiting for the heartbeat"), std::string::npos) << dialogue.state();
+  EXPECT_EQ(states_of(3600), (std::vector<std::string>{
+                                 "waiting for the heartbeat of an autopilot", "asking system 1 for its messages",
+                                 "running, system 1; nothing answers, navcal goes on by what comes; the "
+                                 "compass's own calibration is not known, and stays in the field"}));
+  EXPECT_TRUE(dialogue.start_up().in_service());
+  autopilot.is_deaf = false;
+  live(40, 3700);
+  EXPECT_EQ(dialogue.state(), "running, system 1; the compass's own calibration is undone");
 }
 
 }  // namespace

@@ -164,6 +164,33 @@ TEST(Sources, ASilentOneIsReplacedAndTakenBack) {
   EXPECT_EQ(sources.serving()[Role::heading], 0);
 }
 
+// A magnetometer that is not calibrated yet gives no heading. It served it, and navigation went without.
+TEST(Sources, APortServesOnlyWhatItDeliversAndHandsBackWhatItCeasesToDeliver) {
+  const auto settings = with({Protocol::samples, Protocol::samples});
+  const auto field = [](double time_s, bool is_calibrated) {
+    instruments::Sample sample = at(0, time_s);
+    instruments::CompassSample compass;
+    compass.field_body_uT = instruments::Vector3{20, 0, 40};
+    if (is_calibrated) compass.heading_calibrated_rad = 1;
+    sample.value = compass;
+    return sample;
+  };
+  Sources sources(settings);
+  (void)sources.take(field(0, false));
+  (void)sources.take(heading(1, 0.1));
+  (void)sources.take(field(0.2, false));
+  EXPECT_EQ(sources.delivering()[Role::heading], 1);
+  EXPECT_EQ(sources.delivering()[Role::field], 0);
+  (void)sources.take(field(1, true));
+  EXPECT_EQ(sources.delivering()[Role::heading], 0) << "the first of the configuration, now that it delivers";
+  for (const double time_s : {2.0, 3.0, 4.0}) {
+    (void)sources.take(field(time_s, false));
+    (void)sources.take(heading(1, time_s + 0.1));
+  }
+  EXPECT_EQ(sources.serving()[Role::heading], 1) << "the field goes on, the heading does not";
+  EXPECT_EQ(sources.serving()[Role::field], 0);
+}
+
 TEST(Sources, CalibratorsWaitForTheBestThatDelivers) {
   Sources sources(with({Protocol::nmea, Protocol::nmea}));
   (void)take(sources, heading(1, 0.1));
