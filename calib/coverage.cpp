@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
+
+#include "base/angles.h"
+#include "calib/magnetometer/field_coverage.h"
 
 namespace navcal::calib {
-namespace {
-
-/// Sectors as degrees, for people.
-std::string degrees(std::size_t sectors) {
-  return std::to_string(sectors * static_cast<std::size_t>(kSector_deg));
-}
-
-}  // namespace
 
 std::size_t sector_of(double heading_rad) {
   const double turns = heading_rad / (2 * std::numbers::pi);
@@ -26,20 +23,16 @@ std::size_t visited(const HeadingHistogram& rose) {
 }
 
 std::string missing_turn(const HeadingHistogram& rose) {
-  const std::size_t n = rose.size();
   if (visited(rose) == 0) return "turn through 360 degrees";
-  std::size_t longest = 0, first = 0;
-  for (std::size_t begin = 0; begin < n; ++begin) {
-    std::size_t length = 0;
-    while (length < n && rose[(begin + length) % n] == 0) ++length;
-    if (length > longest) {
-      longest = length;
-      first = begin;
+  if (visited(rose) == rose.size()) return {};
+  std::vector<double> headings_rad;  // both ends and the middle of each sector visited
+  for (std::size_t i = 0; i < rose.size(); ++i) {
+    for (const double part : {0.0, 0.5, 1.0}) {
+      if (rose[i] > 0)
+        headings_rad.push_back((static_cast<double>(i) + part) * kSector_deg * base::kRadiansPerDegree);
     }
   }
-  if (longest == 0) return {};
-  return "turn through " + degrees(longest) + " more degrees, headings " + degrees(first) + " to " +
-         degrees((first + longest) % n);
+  return FieldCoverage(std::move(headings_rad)).manoeuvre(base::kTurn_rad);
 }
 
 }  // namespace navcal::calib

@@ -44,7 +44,7 @@ void append_verdicts(HtmlPage& page, const calib::Report& report) {
     sentence += ": " + (accepted ? joined(shown(calibrator)) : objection_of(calibrator)) + ".";
     if (const auto held_out = held_out_of(calibrator, kArrow); accepted && !held_out.empty())
       sentence += " On held-out readings " + held_out + ".";
-    if (accepted && calibrator.verdict == calib::Verdict::in_force)
+    if (accepted && !no_better && calibrator.verdict == calib::Verdict::in_force)
       sentence += " On the vehicle it would have become active by itself.";
     page.fact(no_better ? "plain" : accepted ? "good" : "bad", verdict_of(calibrator), sentence);
   }

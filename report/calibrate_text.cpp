@@ -28,7 +28,7 @@ void append_calibrator(std::string& out, const calib::CalibratorReport& report) 
   };
   const std::string objection = objection_of(report), held_out = held_out_of(report, "->");
   append_line(objection);
-  const bool adopted = report.verdict == calib::Verdict::in_force;
+  const bool adopted = report.verdict == calib::Verdict::in_force && report.outcome != calib::Outcome::no_better;
   if (!held_out.empty()) {
     append_line("on readings held out " + held_out + (adopted ? "; a vehicle would use it by itself" : ""));
   }

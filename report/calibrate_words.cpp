@@ -98,16 +98,6 @@ std::string text_of(const ShownQuantity& quantity, std::string_view plus_minus) 
 
 std::string_view verdict_of(const calib::CalibratorReport& report) { return calib::name_of(report.outcome); }
 
-std::string objection_of(const calib::CalibratorReport& report) {
-  const auto& judgement = report.judgement;
-  if (report.outcome == calib::Outcome::no_better) {
-    return "the data support the estimate, but held-out readings are no better with it";
-  }
-  if (judgement.accepted) return {};
-  if (judgement.manoeuvre.empty()) return judgement.reason;
-  return judgement.reason.empty() ? judgement.manoeuvre : judgement.reason + "; " + judgement.manoeuvre;
-}
-
 std::string held_out_of(const calib::CalibratorReport& report, std::string_view arrow) {
   const double before = report.judgement.held_out_before, after = report.judgement.held_out_after;
   switch (report.judgement.held_out_quantity) {

@@ -27,8 +27,6 @@ struct ShownQuantity {
 
 /// Judgement: "accepted", "no better" or "refused".
 [[nodiscard]] std::string_view verdict_of(const calib::CalibratorReport& report);
-/// Objection to an estimate and the remedy; empty if it is accepted and useful.
-[[nodiscard]] std::string objection_of(const calib::CalibratorReport& report);
 /// Change on held-out readings, such as "0.63 -> 0.21 deg of heading"; empty if nothing was judged.
 [[nodiscard]] std::string held_out_of(const calib::CalibratorReport& report, std::string_view arrow);
 /// The heading as a whole, before and after, or the reason why it could not be judged.

@@ -15,7 +15,7 @@ using base::kDegreesPerRadian;
 using calib::Calibrator;
 
 constexpr double kLeastBias_deg_s = 0.02, kAlone_s = 60;  ///< smallest bias; time of its cost
-constexpr double kLeastScale = 0.02, kTurn_deg = 90;
+constexpr double kLeastScale = 0.02, kTurn_deg = 90, kHeldOutMargin = 0.1;
 constexpr std::size_t kThirds = 3;                  ///< parts of a rest
 constexpr double kSome_m_s2 = 30, kMuch_m_s2 = 60;  ///< vibration at which ArduPilot warns, and at which it fails
 
@@ -49,20 +49,22 @@ void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibr
   Finding of_scale{"gyro.scale", "Scale of the gyro", rates.front()->name()};
   const calib::Quantity *const bias = report->quantity("bias_rad_s"), *const scale = report->quantity("scale");
   const auto& judgement = report->judgement;
-  if (!judgement.accepted || bias == nullptr || scale == nullptr) {
-    findings.insert(findings.end(), {refused(of_bias, *report), refused(of_scale, *report)});
+  const bool is_worse = report->outcome == calib::Outcome::no_better &&
+                        judgement.held_out_before < (1 - kHeldOutMargin) * judgement.held_out_after;
+  if (is_worse || !judgement.accepted || bias == nullptr || scale == nullptr) {
+    const char* const why = "Held-out readings are worse with the result: the heading is disturbed.";
+    for (const Finding* of : {&of_bias, &of_scale})
+      findings.push_back(is_worse ? of->cannot(why, "Calibrate the compass first.") : refused(*of, *report));
     return;
   }
   const bool is_confirmed = report->outcome == calib::Outcome::accepted &&
                             judgement.held_out_quantity == calib::HeldOutQuantity::heading &&
                             judgement.held_out_after < judgement.held_out_before;
-  const std::string held_out =
-      is_confirmed
-          ? fmt::format(
-                " On held-out readings heading and turn differ by {:.2f} deg as measured and by {:.2f} "
-                "deg corrected.",
-                judgement.held_out_before * kDegreesPerRadian, judgement.held_out_after * kDegreesPerRadian)
-          : std::string();
+  std::string held_out;
+  if (is_confirmed)
+    held_out =
+        fmt::format(" Held out, heading and turn differ by {:.2f} deg as measured, {:.2f} deg corrected.",
+                    judgement.held_out_before * kDegreesPerRadian, judgement.held_out_after * kDegreesPerRadian);
   // True rate = scale * measured + bias: at rest the gyro shows -bias / scale.
   const double rest_deg_s = -bias->value / scale->value * kDegreesPerRadian;
   of_bias.sentence =

@@ -18,6 +18,17 @@ std::string_view name_of(Outcome outcome) {
   return base::enum_name<Outcome::accepted>(outcome, {"refused", "no better", "accepted"});
 }
 
+std::string objection_of(const CalibratorReport& report) {
+  const auto& judgement = report.judgement;
+  if (report.outcome == Outcome::no_better) {
+    return std::string("the data support the estimate, but held-out readings are no better with it") +
+           (report.verdict == Verdict::in_force ? "; one made earlier is in force, and not shown to be worse"
+                                                : "");
+  }
+  if (judgement.accepted || judgement.manoeuvre.empty()) return judgement.reason;
+  return judgement.reason.empty() ? judgement.manoeuvre : judgement.reason + "; " + judgement.manoeuvre;
+}
+
 std::string utc_text(std::int64_t utc_ns) { return utc_ns == 0 ? "an unknown time" : base::utc_text(utc_ns); }
 
 std::string words_of(const FieldStep& step) {

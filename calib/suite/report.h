@@ -47,6 +47,8 @@ struct CalibratorReport {
   /// Null when the estimate has no such number.
   [[nodiscard]] const Quantity* quantity(std::string_view name) const;
 };
+/// Objection and remedy, for users; empty: there is none.
+[[nodiscard]] std::string objection_of(const CalibratorReport& report);
 
 /// Root-mean-square of heading against the integrated gyro within blocks, by estimates made before each block.
 struct HeadingCheck {

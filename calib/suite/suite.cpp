@@ -10,6 +10,8 @@ namespace {
 
 /// Readings of the compass from one judgement to the next: each of ten calibrators is judged every 30.
 constexpr std::uint64_t kJudgeEvery = 3;
+/// Readings of the compass without a field after which none will come.
+constexpr std::uint64_t kNoFieldAfter = 50;
 
 }  // namespace
 
@@ -97,13 +99,24 @@ bool Suite::is_better(Calibrator calibrator) const {
   return row_of(calibrator).field_alone && field_.comparison().better_by(options_.margin) && !found.contradicts();
 }
 
+bool Suite::is_worse(Calibrator calibrator) const {
+  const Correction& in_force = in_force_.correction();
+  if (!has(in_force, calibrator)) return false;
+  // The corrected heading is that of one of these: of the magnetometer, else of the compass, else by GPS.
+  const bool by_gps = calibrator == Calibrator::gps_compass, by_turns = calibrator == Calibrator::compass;
+  if (((by_gps || by_turns) && in_force.magnetometer) || (by_gps && in_force.compass)) return false;
+  const bool by_field = row_of(calibrator).field_alone && !comparison(calibrator).is_judged();
+  return (by_field ? field_.comparison() : comparison(calibrator)).worse_by(options_.margin);
+}
+
 void Suite::adopt_what_is_better() {
   if (!options_.automatic) return;
   for (const Calibrator calibrator : calibrators()) {
     Flags& flags = flags_[index_of(calibrator)];
     if (!row_of(calibrator).automatic || flags.held) continue;
-    if (!has(accepted_, calibrator) || !is_better(calibrator)) continue;
-    adopt(calibrator, accepted_);
+    const bool adopts = has(accepted_, calibrator) && is_better(calibrator);
+    if (!adopts && !is_worse(calibrator)) continue;
+    adopt(calibrator, adopts ? accepted_ : Correction{});
     flags.adopted = true;
   }
 }
@@ -202,17 +215,13 @@ std::string Suite::silent_instrument(Calibrator calibrator) const {
   return {};
 }
 
-bool Suite::gives_no_field() const {
-  constexpr std::uint64_t kEnough = 50;  // readings
-  return gate_.counts().taken[static_cast<std::size_t>(Stream::compass)] >= kEnough;
-}
-
 void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
   Judgement& judgement = report.judgement;
   if (const std::string silent = silent_instrument(report.calibrator); !silent.empty()) {
     judgement.reason = "no reading of " + silent + " so far";
     judgement.manoeuvre.clear();
-  } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 && gives_no_field()) {
+  } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 &&
+             gate_.counts().taken[static_cast<std::size_t>(Stream::compass)] >= kNoFieldAfter) {
     const auto& left_out = gate_.counts().left_out[static_cast<std::size_t>(Stream::compass)];
     const bool too_large = left_out[static_cast<std::size_t>(Rejection::field_too_large)] > 0;
     judgement.reason = too_large ? "the measured field is larger than the 500 uT that the Earth and a vehicle make"

@@ -37,7 +37,7 @@ class Suite {
   void restart() { gate_.restart(); }
 
   [[nodiscard]] const InForce& in_force() const { return in_force_; }
-  /// A calibrator whose estimate came into force by itself since the last call; to be called until there is none.
+  /// A calibrator whose value in force changed by itself since the last call; to be called until there is none.
   std::optional<Calibrator> take_adopted();
 
   /// A step of the field that was found since the last call.
@@ -78,14 +78,14 @@ class Suite {
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
   /// The first instrument it takes that is configured and has said nothing; empty when all have.
   [[nodiscard]] std::string silent_instrument(Calibrator calibrator) const;
-  /// True when the compass has sent so many readings without a field that none will come.
-  [[nodiscard]] bool gives_no_field() const;
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
   /// Looks anew whether a calibrator's estimate is accepted.
   void refresh_accepted(Calibrator calibrator);
   /// True when the estimate is better on held-out readings than the active correction, and no other instrument
   /// contradicts it.
   [[nodiscard]] bool is_better(Calibrator calibrator) const;
+  /// True when what is active is worse on held-out readings than nothing.
+  [[nodiscard]] bool is_worse(Calibrator calibrator) const;
   void adopt_what_is_better();
   /// Verdict, outcome and held-out figures of one calibrator.
   void judge(CalibratorReport& report, const Correction& in_force) const;

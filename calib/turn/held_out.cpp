@@ -19,11 +19,10 @@ constexpr double kLeastTurn_rad = 0.5;
 
 }  // namespace
 
-void Comparison::Sums::add(double before_square, double in_force_square, double estimate_square) {
+void Comparison::Sums::add(double before_square, double in_force_square, double estimate_square, double gain) {
   before = kForgetting * before + before_square;
   in_force = kForgetting * in_force + in_force_square;
   estimate = kForgetting * estimate + estimate_square;
-  const double gain = in_force_square - estimate_square;
   gain_square = kForgetting * gain_square + gain * gain;
   weight = kForgetting * weight + 1;
   weight_square = kForgetting * kForgetting * weight_square + 1;
@@ -32,23 +31,31 @@ void Comparison::Sums::add(double before_square, double in_force_square, double 
 
 double Comparison::Sums::rms(double sum) const { return weight > 0 ? std::sqrt(sum / weight) : 0; }
 
-double Comparison::Sums::significance() const {
+double Comparison::Sums::significance(double gain, double squares) const {
   if (blocks < 2) return 0;
-  const double mean = (in_force - estimate) / weight;
+  const double mean = gain / weight;
   const double others = weight * weight / weight_square - 1;  // blocks that count, less one
-  const double variance = std::max(gain_square / weight - mean * mean, 0.0) / others;
+  const double variance = std::max(squares / weight - mean * mean, 0.0) / others;
   return variance > 0 ? mean / std::sqrt(variance) : mean > 0 ? kLeastStandardErrors : 0;
 }
 
 void Comparison::add(double before_square, double in_force_square, double estimate_square) {
-  all_.add(before_square, in_force_square, estimate_square);
-  since_change_.add(before_square, in_force_square, estimate_square);
+  all_.add(before_square, in_force_square, estimate_square, before_square - in_force_square);
+  since_change_.add(before_square, in_force_square, estimate_square, in_force_square - estimate_square);
+}
+
+bool Comparison::gains(double from, double to, double squares, double margin) const {
+  const Sums& s = since_change_;
+  return s.blocks >= kLeastBlocks && s.significance(from - to, squares) >= kLeastStandardErrors &&
+         s.rms(to) < (1 - margin) * s.rms(from);
 }
 
 bool Comparison::better_by(double margin) const {
-  const Sums& s = since_change_;
-  return s.blocks >= kLeastBlocks && s.significance() >= kLeastStandardErrors &&
-         s.rms(s.estimate) < (1 - margin) * s.rms(s.in_force);
+  return gains(since_change_.in_force, since_change_.estimate, since_change_.gain_square, margin);
+}
+
+bool Comparison::worse_by(double margin) const {
+  return gains(since_change_.in_force, since_change_.before, all_.gain_square, margin);
 }
 
 bool Comparison::contradicts() const {

@@ -18,10 +18,12 @@ class Comparison {
  public:
   void add(double before_square, double in_force_square, double estimate_square);
   /// The active correction has changed.
-  void on_change() { since_change_ = {}; }
+  void on_change() { since_change_ = {}, all_.gain_square = 0; }
   /// True when the estimate is better than the active correction by this relative margin, and its gain is
   /// significant over the blocks: three standard errors of the mean gain.
   [[nodiscard]] bool better_by(double margin) const;
+  /// The same of no correction in the estimate's place: what is active makes it worse.
+  [[nodiscard]] bool worse_by(double margin) const;
 
   /// True when enough blocks have judged the estimate and it was no better than the active correction.
   [[nodiscard]] bool contradicts() const;
@@ -39,17 +41,18 @@ class Comparison {
   static constexpr double kLeastStandardErrors = 3;
   struct Sums {
     double before = 0, in_force = 0, estimate = 0;
-    double gain_square = 0;  ///< of in_force less estimate
+    double gain_square = 0;  ///< since the change: of in_force less estimate; in all_: of before less in_force
     double weight = 0, weight_square = 0;
     std::uint64_t blocks = 0;
-    void add(double before_square, double in_force_square, double estimate_square);
+    void add(double before_square, double in_force_square, double estimate_square, double gain);
     [[nodiscard]] double rms(double sum) const;
-    /// Mean gain over its standard error; 0 before the second block.
-    [[nodiscard]] double significance() const;
+    /// Mean gain over its standard error, by the sums of gains and of their squares; 0 before the second block.
+    [[nodiscard]] double significance(double gain, double squares) const;
     void archive(Archive& archive) {
       archive(before, in_force, estimate, gain_square, weight, weight_square, blocks);
     }
   };
+  [[nodiscard]] bool gains(double from, double to, double squares, double margin) const;
   Sums all_, since_change_;
 };
 

@@ -2,26 +2,18 @@
 #include "calib/turn/turn_calibrator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "base/angles.h"
 #include "calib/coverage.h"
+#include "calib/magnetometer/field_coverage.h"
 
 namespace navcal::calib {
 namespace {
 
 /// Fewer sectors than this, and the vehicle has only yawed about a heading.
 constexpr std::size_t kNoTurn = 4;
-
-template <class... Values>
-std::string said(const char* format, Values... values) {
-  std::array<char, 200> text{};
-  const int length = std::snprintf(text.data(), text.size(), format, values...);
-  return std::string(text.data(), static_cast<std::size_t>(std::clamp(length, 0, 199)));
-}
 
 void refuse(Judgement& judgement, std::string reason, std::string manoeuvre) {
   judgement.reason = std::move(reason);
@@ -67,16 +59,14 @@ Judgement TurnCalibrator::judgement() const {
     refuse(judgement, "the vehicle has not turned", "make full turns, both ways and at different rates");
   } else if (!gyro_known_ && visited(rose_) < limits_.sectors) {
     refuse(judgement,
-           said("only %.0f degrees of the circle were seen: the gyro's scale cannot be told from the compass's "
-                "deviation",
-                judgement.coverage * 360),
+           "only " + rounded(judgement.coverage * 360, 0) +
+               " degrees of the circle were seen: the gyro's scale cannot be told from the compass's deviation",
            missing_turn(rose_));
   } else if (filter_.reduced_chi_squared() > limits_.chi_squared) {
     refuse(
         judgement,
-        said("the readings scatter %.1f times as much as configured: the compass is disturbed, or its deviation "
-             "is not of the form A to E",
-             std::sqrt(filter_.reduced_chi_squared())),
+        "the readings scatter " + rounded(std::sqrt(filter_.reduced_chi_squared()), 1) +
+            " times as much as configured: the compass is disturbed, or its deviation is not of the form A to E",
         "turn away from steel and currents; the magnetometer's calibration corrects what A to E cannot");
   } else if (subject_ == Subject::gyro) {
     judge_gyro(judgement);
@@ -93,10 +83,10 @@ void TurnCalibrator::judge_gyro(Judgement& judgement) const {
   const double bias_std = std::sqrt(covariance(kBias, kBias));
   // Written so that not-a-number is refused too.
   if (!(scale_std <= limits_.scale_std)) {
-    refuse(judgement, said("the scale is known to %.1f %% only: the rate hardly changed", scale_std * 100),
+    refuse(judgement, "the scale is known to " + rounded(scale_std * 100, 1) + " % only: the rate hardly changed",
            "turn the other way, or at another rate, too");
   } else if (!(bias_std <= limits_.bias_std_rad_s)) {
-    refuse(judgement, said("the bias is known to %.2f deg/s only", bias_std * base::kDegreesPerRadian),
+    refuse(judgement, "the bias is known to " + rounded(bias_std * base::kDegreesPerRadian, 2) + " deg/s only",
            "go on for longer, straight and turning");
   }
 }
@@ -106,7 +96,8 @@ void TurnCalibrator::judge_compass(Judgement& judgement) const {
   if (heading_std <= limits_.heading_std_rad) return;
   const std::string missing = missing_turn(rose_);
   refuse(judgement,
-         said("the corrected heading would be known to %.1f degrees only", heading_std * base::kDegreesPerRadian),
+         "the corrected heading would be known to " + rounded(heading_std * base::kDegreesPerRadian, 1) +
+             " degrees only",
          missing.empty() ? "turn slowly through the circle once more" : missing);
 }
 

@@ -19,16 +19,9 @@ Json value_of(const calib::CalibratorReport* report, std::string_view name, doub
   return quantity == nullptr ? Json(nullptr) : number_json(quantity->*which * unit);
 }
 
-/// Objection and remedy, in one sentence for users.
 std::string reason_of(const calib::CalibratorReport* report, Calibrator calibrator) {
-  if (report == nullptr)
-    return "the recording lacks an instrument: it takes " + std::string(calib::row_of(calibrator).needs_text);
-  if (report->outcome == calib::Outcome::no_better) {
-    return "the data support the estimate, but held-out readings are no better with it";
-  }
-  const auto& judgement = report->judgement;
-  if (judgement.accepted || judgement.manoeuvre.empty()) return judgement.reason;
-  return judgement.reason + "; " + judgement.manoeuvre;
+  if (report != nullptr) return objection_of(*report);
+  return "the recording lacks an instrument: it takes " + std::string(calib::row_of(calibrator).needs_text);
 }
 
 Json held_out_json(const calib::CalibratorReport* report) {

@@ -331,6 +331,25 @@ TEST(Audit, WhatTellsNoBiasTellsNoScaleEither) {
     EXPECT_EQ(find(findings, name)->certainty, Certainty::cannot_say);
 }
 
+TEST(Audit, AnEstimateThatHeldOutReadingsContradictIsNoAnswer) {
+  AuditedLog log;
+  log.channels.push_back(channel("imu", "rate_z", normal(400, 0, 1), 0.05));
+  auto gyro = delay_of(calib::Calibrator::gyro, 0, 0, true);
+  gyro.estimate = {{"scale", 0.97, 0.001}, {"bias_rad_s", 0.005, 0.001}};
+  gyro.outcome = calib::Outcome::no_better;
+  gyro.judgement.held_out_quantity = calib::HeldOutQuantity::heading;
+  gyro.judgement.held_out_before = 0.03;
+  for (const double after : {0.04, 0.0302}) {
+    gyro.judgement.held_out_after = after;
+    log.whole.report.calibrators = {gyro};
+    const auto findings = inertial_findings(log);
+    for (const char* name : {"gyro.bias", "gyro.scale"}) {
+      EXPECT_EQ(find(findings, name)->certainty, Certainty::cannot_say) << name << after;
+      EXPECT_EQ(find(findings, name)->low.has_value(), after < 0.035) << name << after;
+    }
+  }
+}
+
 TEST(Audit, AReceiverIsNeverEarly) {
   AuditedLog log;
   log.whole.report.calibrators = {delay_of(calib::Calibrator::course_delay, -0.8, 0.1, true)};
