@@ -24,8 +24,11 @@ constexpr double kLongest_s = 600;  ///< of a recording: more tells no more
 constexpr double kTold_nats = 3;    ///< by which a convention's opposite has to be worse
 constexpr double kHour_s = 3600, kQuarter_s = 900;
 
-/// Channels and signals that lie whole quarters of an hour beside the others are moved there.
-std::vector<Convention> mend_time_zones(RecordedMotion& motion) {
+/// Channels, and signals of actuators, that lie whole quarters of an hour beside the others are moved there. A few
+/// readings, or those of a short part of the others' time, may have been made at any time.
+std::vector<Convention> mend_time_zones(const config::Layout& layout, RecordedMotion& motion) {
+  constexpr std::size_t kFewest = 20;
+  constexpr double kShortest = 0.5;
   struct Span {
     std::string name;
     std::vector<double*> times;
@@ -34,12 +37,13 @@ std::vector<Convention> mend_time_zones(RecordedMotion& motion) {
   for (std::size_t c = 0; c < kChannels; ++c) {
     Span span{std::string(kChannelDescriptions[c].name), {}};
     for (Reading& reading : motion.channels[c]) span.times.push_back(&reading.time_s);
-    if (!span.times.empty()) spans.push_back(std::move(span));
+    if (span.times.size() >= kFewest) spans.push_back(std::move(span));
   }
+  const ActuatorInputs inputs(layout, motion);
   for (auto& [name, signal] : motion.signals) {
-    Span span{name, {}};
+    if (signal.times_s.size() < kFewest || !inputs.use(name)) continue;
+    Span& span = spans.emplace_back(Span{name, {}});
     for (double& time_s : signal.times_s) span.times.push_back(&time_s);
-    if (!span.times.empty()) spans.push_back(std::move(span));
   }
   std::vector<Convention> found;
   const auto most = std::max_element(spans.begin(), spans.end(),
@@ -48,7 +52,7 @@ std::vector<Convention> mend_time_zones(RecordedMotion& motion) {
   const double begin_s = *most->times.front(), end_s = *most->times.back();
   for (const Span& span : spans) {
     const double first_s = *span.times.front(), last_s = *span.times.back();
-    if (first_s < end_s && last_s > begin_s) continue;
+    if ((first_s < end_s && last_s > begin_s) || last_s - first_s < kShortest * (end_s - begin_s)) continue;
     const double apart_s = (first_s + last_s - begin_s - end_s) / 2;
     const double zone_s = std::round(apart_s / kQuarter_s) * kQuarter_s;
     if (zone_s == 0 || std::abs(apart_s - zone_s) > (end_s - begin_s) / 2) continue;
@@ -171,7 +175,7 @@ ConventionCheck check_conventions(const config::Layout& layout, std::vector<Reco
                                   const std::function<void(double)>& progress) {
   ConventionCheck all;
   for (RecordedMotion& motion : motions) {
-    const auto zones = mend_time_zones(motion);
+    const auto zones = mend_time_zones(layout, motion);
     all.found.insert(all.found.end(), zones.begin(), zones.end());
     motion.duration_s = std::min(motion.duration_s, kLongest_s);
   }
