@@ -149,16 +149,17 @@ Gain gain_of(const std::vector<Agreement>& before, const std::vector<Agreement>&
   return all;
 }
 
-/// Suspects that would agree as well: the motion does not tell.
-std::vector<std::string> untold_by(const std::vector<Suspect>& suspects, const std::vector<Gain>& gains) {
-  std::vector<std::string> untold;
+/// Counts suspects that agree worse. Of those that would agree as well the motion does not tell.
+void tell(ConventionCheck& all, const std::vector<Suspect>& suspects, const std::vector<Gain>& gains) {
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     const double nats = gains[i].nats - suspects[i].log_prior;
     // A suspect that changes nothing at all concerns a channel that is not measured.
-    if (!suspects[i].name.empty() && nats > -kTold_nats && std::abs(nats) > kSame)
-      untold.push_back(suspects[i].words);
+    if (suspects[i].name.empty() || std::abs(nats) <= kSame) continue;
+    if (nats > -kTold_nats)
+      all.untold.push_back(suspects[i].words);
+    else
+      ++all.told;
   }
-  return untold;
 }
 
 std::string not_checked_words(const RecordedMotion& motion, const Agreement& agreement) {
@@ -211,7 +212,7 @@ ConventionCheck check_conventions(const config::Layout& layout, std::vector<Reco
     }
     const Gain& gain = gains[best];
     if (of_name / sum < kSure || !gain.is_mended || suspects[best].name.empty()) {
-      all.untold = untold_by(suspects, gains);
+      tell(all, suspects, gains);
       break;
     }
     bench.mend(suspects[best]);
