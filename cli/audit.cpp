@@ -44,8 +44,6 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
     motion.order_times_s.clear();
     motion.ordered_fins_rad.clear();
   }
-  const auto channels = std::count_if(motion.channels.begin(), motion.channels.end(),
-                                      [](const auto& readings) { return !readings.empty(); });
   const identify::ConventionCheck check = identify::check_conventions(layout, {std::move(motion)}, show);
   std::vector<analysis::Finding> findings;
   for (const identify::Convention& convention : check.found) {
@@ -60,11 +58,15 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
   }
   if (findings.empty()) {
     const analysis::Finding none{"convention", "Conventions", "all"};
-    findings.push_back(none);
-    findings.back().sentence = "Channels that can be compared agree in unit, sign and frame.";
     if (!check.untold.empty())
-      findings.back().sentence += fmt::format(" This motion does not tell: {}.", fmt::join(check.untold, "; "));
-    if (channels < 2) findings.back() = none.cannot("There are no two channels to compare.");
+      findings.push_back(none.cannot(fmt::format("This motion does not tell: {}.", fmt::join(check.untold, "; ")),
+                                     "Turn and tilt to both sides."));
+    else if (check.told == 0)
+      findings.push_back(none.cannot("There are no two channels to compare."));
+    if (check.told > 0) {
+      findings.push_back(none);
+      findings.back().sentence = "Channels that were compared agree in unit, sign and frame.";
+    }
   }
   return findings;
 }

@@ -90,7 +90,7 @@ namespace {
 void leave_out_consequences(std::vector<Finding>& findings) {
   const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also) {
     const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
-      return finding.certainty <= Certainty::likely && is_cause(finding);
+      return (finding.certainty <= Certainty::likely || finding.name == "sampling.times") && is_cause(finding);
     });
     if (found == findings.end()) return;
     const std::string why = fmt::format("{}: {}", words, found->sentence), todo = found->todo;
@@ -109,6 +109,8 @@ void leave_out_consequences(std::vector<Finding>& findings) {
         return of.name.starts_with("convention.") && (of.channel.starts_with("rate") || of.channel == "body");
       },
       "compass.axes");
+  leave_out(
+      "The times are not known", [](const Finding& of) { return of.name == "sampling.times"; }, "force.vibration");
   leave_out(
       "The axes of the field are not what they should be",
       [](const Finding& of) { return of.name == "compass.axes"; }, "compass.heading");

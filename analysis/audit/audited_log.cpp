@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "analysis/audit/bounded.h"
@@ -41,8 +42,10 @@ class AuditSink final : public ReplaySink {
     log_.duration_s = channels_.duration_s();
     log_.begin_utc_ns = channels_.begin_utc_ns();
     log_.channels = channels_.take_channels(settings_);
+    leave_out_absent();
     for (auto& [key, open] : streams_) {
       const auto& [port, kind] = key;
+      if (open.stream.vectors > 0 && !open.is_there) continue;
       const auto kinds = std::count_if(streams_.begin(), streams_.end(),
                                        [of = port](const auto& other) { return other.first.first == of; });
       open.stream.kind = kind;
@@ -60,7 +63,26 @@ class AuditSink final : public ReplaySink {
     AuditedStream stream;
     Vectors newest{};
     double since_s = 0;  ///< of the newest value
+    bool is_there = false;
   };
+
+  /// Rates, forces and fields that are zero all the time are of instruments that are not there.
+  void leave_out_absent() {
+    std::set<std::pair<std::string, std::string>> there;
+    for (const RecordedChannel& channel : log_.channels) {
+      const auto& values = channel.series.values;
+      if (std::any_of(values.begin(), values.end(), [](double value) { return value != 0; }))
+        there.emplace(channel.port, vector_of(channel));
+    }
+    std::erase_if(log_.channels, [&](const RecordedChannel& channel) {
+      const std::string vector = vector_of(channel);
+      return (vector == "rate" || vector == "force" || vector == "field" || vector == "yaw_rate") &&
+             !there.contains({channel.port, vector});
+    });
+  }
+  static std::string vector_of(const RecordedChannel& channel) {
+    return channel.quantity.substr(0, channel.quantity.rfind('_'));
+  }
 
   /// An imported fix states no UTC of its own.
   void take_fix(instruments::GpsSample fix, const instruments::Stamp& stamp) {
@@ -86,6 +108,8 @@ class AuditSink final : public ReplaySink {
   }
   static void compare(OpenStream& open, const Vectors& vectors, double time_s) {
     if (!vectors[0] && !vectors[1]) return;
+    for (const auto& vector : vectors)
+      open.is_there = open.is_there || (vector && *vector != instruments::Vector3{});
     if (++open.stream.vectors > 1 && vectors == open.newest) {
       ++open.stream.repeated;
       open.stream.longest_equal_s = std::max(open.stream.longest_equal_s, time_s - open.since_s);
@@ -112,6 +136,11 @@ config::Settings without_estimates(config::Settings settings) {
 
 void read_samples(AuditedLog& log, const std::string& file, const record::TimeWindow& window,
                   const KeepGoing& keep_going) {
+  for (auto whole = record::Recording::open(file); const auto entry = whole->next();) {
+    const auto* const event = std::get_if<record::LoggedEvent>(&*entry);
+    if (event != nullptr && event->json.find(kNoTimes) != std::string::npos) log.states_times = false;
+    if (std::holds_alternative<record::RawRead>(*entry)) break;
+  }
   auto recording = record::Recording::open(file, window);
   const config::Settings settings = without_estimates(recording->settings());
   AuditSink sink(log, settings);

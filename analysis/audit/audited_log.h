@@ -60,6 +60,7 @@ struct AuditedLog {
   std::map<std::string, Series> heading_std_deg;
   std::array<AuditedCalibration, 2> halves;  ///< fitted to the first and to the second half only
   std::vector<std::string> remarks;
+  bool states_times = true;  ///< else the import has placed the bytes evenly
 
   [[nodiscard]] const RecordedChannel* find(std::string_view port, std::string_view quantity) const;
   /// value_at() of a channel; nullopt where there is none.

@@ -21,6 +21,15 @@ struct Rhythm {
   double period_s = 0, mean_s = 0, jitter_s = 0, missing = 0, expected = 0;
   double longest_s = 0, longest_at_s = 0;
   double intervals = 0, long_ones = 0, reversed = 0;
+  std::vector<double> gaps_s{};
+
+  /// A vehicle that samples seldom, or pauses for the same time again and again, does so by design.
+  [[nodiscard]] bool is_by_design() const {
+    constexpr std::size_t kFewest = 5;
+    constexpr double kSeldom_s = 2, kAlike = 1.5;
+    return period_s > kSeldom_s ||
+           (gaps_s.size() >= kFewest && quantile(gaps_s, 0.9) < kAlike * quantile(gaps_s, 0.1));
+  }
 };
 
 Rhythm rhythm_of(const std::vector<double>& time_s) {
@@ -40,6 +49,7 @@ Rhythm rhythm_of(const std::vector<double>& time_s) {
     rhythm.expected += periods;
     if (interval_s > kMissing * rhythm.period_s) {
       ++rhythm.long_ones;
+      if (periods > kLongGap_periods) rhythm.gaps_s.push_back(interval_s);
       rhythm.missing += periods - 1;
     } else {
       squares += (interval_s - rhythm.period_s) * (interval_s - rhythm.period_s);
@@ -88,6 +98,10 @@ Finding rhythm_finding(const AuditedStream& stream, const Rhythm& rhythm) {
         rhythm.missing, rhythm.expected, rate_Hz, rhythm.long_ones, rhythm.longest_s, rhythm.longest_at_s);
     finding.todo = "Look at cable, supply and load of the logger at the time of the longest gap.";
     if (stream.kind == "motor") finding.certainty = Certainty::likely;  // commands may be logged when they change
+    if (rhythm.is_by_design()) {
+      finding.certainty = Certainty::likely;
+      finding.todo = "None where the vehicle samples so by design: in parts of a dive, or to save power.";
+    }
   } else {
     finding.put_count(rate_Hz, "Hz");
     finding.sentence = fmt::format("{} readings, {:.4g} Hz, jitter {:.3f} ms, longest interval {:.3g} s.",
@@ -107,7 +121,11 @@ std::vector<Finding> sampling_findings(const AuditedLog& log) {
     findings.back().put_count(share, "%");
     return findings.back();
   };
+  if (!log.states_times)
+    findings.push_back(Finding{"sampling.times", "Times", "all"}.cannot(
+        "The file states no times: rates, gaps, repeated readings and delays cannot be judged."));
   for (const AuditedStream& stream : log.streams) {
+    if (!log.states_times) break;
     if (stream.kind == "sensor") continue;  // mission sensors send what and when they like
     const Rhythm rhythm = rhythm_of(stream.time_s);
     if (stream.time_s.size() < kFewestReadings || !(rhythm.period_s > 0)) {

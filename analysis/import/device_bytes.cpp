@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,7 @@
 #include "config/load.h"
 #include "instruments/instrument.h"
 #include "protocols/parsers.h"
+#include "protocols/pd0.h"
 
 namespace navcal::analysis {
 namespace {
@@ -24,11 +26,16 @@ struct StatedTime {
 class DeviceSurvey : private instruments::Receiver {
  public:
   DeviceSurvey(const config::PortSettings& port, ImportReport& report)
-      : report_(report), instrument_(instruments::make_instrument(port)) {}
+      : report_(report), instrument_(instruments::make_instrument(port)),
+        is_pd0_(port.protocol == protocols::Protocol::pd0) {}
 
   void operator()(const protocols::Frame& frame) {
     frame_ = frame.offset;
     const std::uint64_t before = samples;
+    if (is_pd0_) {
+      if (const auto leader = protocols::pd0::decode(frame.bytes).variable; leader && is_valid(leader->date))
+        tick(clock, frame_, unix_ns(leader->date, leader->time));
+    }
     const auto verdict = instrument_->read(frame, *this);
     if (verdict == Verdict::begins) epoch_ = frame.offset;
     const std::string kind(frame.id.view());
@@ -43,24 +50,30 @@ class DeviceSurvey : private instruments::Receiver {
 
   std::uint64_t samples = 0;
   std::vector<StatedTime> times;  ///< later and later
+  std::vector<StatedTime> clock;  ///< the same by the device's own clock, of any origin
 
  private:
   using Verdict = instruments::Instrument::Verdict;
 
+  static void tick(std::vector<StatedTime>& times, std::uint64_t offset, std::int64_t time_ns) {
+    if (times.empty() || (time_ns > times.back().utc_ns && offset > times.back().offset))
+      times.push_back({offset, time_ns});
+  }
   void on_measurement(const instruments::Measurement& measurement) override {
     ++samples;
+    if (measurement.device_time_ns && measurement.clock == 0) tick(clock, frame_, *measurement.device_time_ns);
     if (!measurement.stated_utc_ns || !measurement.utc_is_known) return;
     StatedTime time{measurement.of_epoch ? epoch_ : frame_, *measurement.stated_utc_ns};
     // No recording is of the future: then nothing had rolled over, and the date holds as it was sent.
     constexpr std::int64_t kEpoch_ns = 1024LL * 7 * 86'400 * 1'000'000'000;
     const auto* const gps = std::get_if<instruments::GpsSample>(&measurement.value);
     while (gps != nullptr && gps->time_corrected && time.utc_ns > now_ns_) time.utc_ns -= kEpoch_ns;
-    if (times.empty() || (time.utc_ns > times.back().utc_ns && time.offset > times.back().offset))
-      times.push_back(time);
+    tick(times, time.offset, time.utc_ns);
   }
 
   ImportReport& report_;
   std::unique_ptr<instruments::Instrument> instrument_;
+  bool is_pd0_;
   std::uint64_t frame_ = 0, epoch_ = 0;
   const std::int64_t now_ns_ =
       std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -106,10 +119,14 @@ ImportReport import_bytes(const std::filesystem::path& input, protocols::Protoco
   report.utc = ImportReport::Utc::of_gps;
   auto& times = survey.times;
   if (times.empty()) {
-    times.push_back({0, kStatedDate_ns});
     report.utc = ImportReport::Utc::unknown;
     mapping.bound_ns = pipeline::UtcMapping::kUnknownBound;
-    report.remarks.push_back(fmt::format("no time is stated: the bytes are placed evenly, at {} Bd", port.baud));
+    const bool advances = survey.clock.size() > 1;
+    times = advances ? std::move(survey.clock) : std::vector{StatedTime{}};
+    const std::int64_t first_ns = times.front().utc_ns;
+    for (StatedTime& time : times) time.utc_ns += kStatedDate_ns - first_ns;
+    report.remarks.push_back(advances ? "times are those of the device's own clock"
+                                      : fmt::format("{}, at {} Bd", kNoTimes, port.baud));
   }
 
   // From a stated time on the bytes follow one another on the wire, until the next one.
@@ -122,6 +139,9 @@ ImportReport import_bytes(const std::filesystem::path& input, protocols::Protoco
   record::RawRead read;
   read.time_ns = mapping.at_ns = report.start_utc_ns = arrival_ns(times.front(), 0);
   builder.begin({read.time_ns, mapping});
+  builder.tell("info", "import",
+               fmt::format("of {} ({}){}{}", report.input, report.format, report.remarks.empty() ? "" : "; ",
+                           fmt::join(report.remarks, "; ")));
   std::size_t at = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const bool is_last = i + 1 == times.size();
@@ -143,7 +163,6 @@ ImportReport import_bytes(const std::filesystem::path& input, protocols::Protoco
   report.refused = survey.samples - std::min(written, survey.samples);
   if (report.refused > 0) report.left["sample (repeated, or out of range)"] = report.refused;
   if (!file.is_whole()) throw record::BadRecording(report.input + ": it was cut during the import");
-  builder.tell("info", "import", fmt::format("of {} ({})", report.input, report.format));
   builder.commit();
   return report;
 }

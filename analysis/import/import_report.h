@@ -15,6 +15,9 @@ namespace navcal::analysis {
 inline constexpr std::string_view kCorrectedFields =
     "fields of the compass are as the autopilot has corrected them";
 
+/// So the remarks and the event of a log of a device's bytes say it.
+inline constexpr std::string_view kNoTimes = "no time is stated: the bytes are placed evenly";
+
 /// What was found in a log of another system, and what became of it.
 struct ImportReport {
   enum class Utc : std::uint8_t {

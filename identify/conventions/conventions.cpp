@@ -24,8 +24,11 @@ constexpr double kLongest_s = 600;  ///< of a recording: more tells no more
 constexpr double kTold_nats = 3;    ///< by which a convention's opposite has to be worse
 constexpr double kHour_s = 3600, kQuarter_s = 900;
 
-/// Channels and signals that lie whole quarters of an hour beside the others are moved there.
-std::vector<Convention> mend_time_zones(RecordedMotion& motion) {
+/// Channels, and signals of actuators, that lie whole quarters of an hour beside the others are moved there. A few
+/// readings, or those of a short part of the others' time, may have been made at any time.
+std::vector<Convention> mend_time_zones(const config::Layout& layout, RecordedMotion& motion) {
+  constexpr std::size_t kFewest = 20;
+  constexpr double kShortest = 0.5;
   struct Span {
     std::string name;
     std::vector<double*> times;
@@ -34,12 +37,13 @@ std::vector<Convention> mend_time_zones(RecordedMotion& motion) {
   for (std::size_t c = 0; c < kChannels; ++c) {
     Span span{std::string(kChannelDescriptions[c].name), {}};
     for (Reading& reading : motion.channels[c]) span.times.push_back(&reading.time_s);
-    if (!span.times.empty()) spans.push_back(std::move(span));
+    if (span.times.size() >= kFewest) spans.push_back(std::move(span));
   }
+  const ActuatorInputs inputs(layout, motion);
   for (auto& [name, signal] : motion.signals) {
-    Span span{name, {}};
+    if (signal.times_s.size() < kFewest || !inputs.use(name)) continue;
+    Span& span = spans.emplace_back(Span{name, {}});
     for (double& time_s : signal.times_s) span.times.push_back(&time_s);
-    if (!span.times.empty()) spans.push_back(std::move(span));
   }
   std::vector<Convention> found;
   const auto most = std::max_element(spans.begin(), spans.end(),
@@ -48,7 +52,7 @@ std::vector<Convention> mend_time_zones(RecordedMotion& motion) {
   const double begin_s = *most->times.front(), end_s = *most->times.back();
   for (const Span& span : spans) {
     const double first_s = *span.times.front(), last_s = *span.times.back();
-    if (first_s < end_s && last_s > begin_s) continue;
+    if ((first_s < end_s && last_s > begin_s) || last_s - first_s < kShortest * (end_s - begin_s)) continue;
     const double apart_s = (first_s + last_s - begin_s - end_s) / 2;
     const double zone_s = std::round(apart_s / kQuarter_s) * kQuarter_s;
     if (zone_s == 0 || std::abs(apart_s - zone_s) > (end_s - begin_s) / 2) continue;
@@ -145,16 +149,17 @@ Gain gain_of(const std::vector<Agreement>& before, const std::vector<Agreement>&
   return all;
 }
 
-/// Suspects that would agree as well: the motion does not tell.
-std::vector<std::string> untold_by(const std::vector<Suspect>& suspects, const std::vector<Gain>& gains) {
-  std::vector<std::string> untold;
+/// Counts suspects that agree worse. Of those that would agree as well the motion does not tell.
+void tell(ConventionCheck& all, const std::vector<Suspect>& suspects, const std::vector<Gain>& gains) {
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     const double nats = gains[i].nats - suspects[i].log_prior;
     // A suspect that changes nothing at all concerns a channel that is not measured.
-    if (!suspects[i].name.empty() && nats > -kTold_nats && std::abs(nats) > kSame)
-      untold.push_back(suspects[i].words);
+    if (suspects[i].name.empty() || std::abs(nats) <= kSame) continue;
+    if (nats > -kTold_nats)
+      all.untold.push_back(suspects[i].words);
+    else
+      ++all.told;
   }
-  return untold;
 }
 
 std::string not_checked_words(const RecordedMotion& motion, const Agreement& agreement) {
@@ -171,7 +176,7 @@ ConventionCheck check_conventions(const config::Layout& layout, std::vector<Reco
                                   const std::function<void(double)>& progress) {
   ConventionCheck all;
   for (RecordedMotion& motion : motions) {
-    const auto zones = mend_time_zones(motion);
+    const auto zones = mend_time_zones(layout, motion);
     all.found.insert(all.found.end(), zones.begin(), zones.end());
     motion.duration_s = std::min(motion.duration_s, kLongest_s);
   }
@@ -207,7 +212,7 @@ ConventionCheck check_conventions(const config::Layout& layout, std::vector<Reco
     }
     const Gain& gain = gains[best];
     if (of_name / sum < kSure || !gain.is_mended || suspects[best].name.empty()) {
-      all.untold = untold_by(suspects, gains);
+      tell(all, suspects, gains);
       break;
     }
     bench.mend(suspects[best]);

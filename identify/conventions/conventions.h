@@ -22,6 +22,7 @@ struct ConventionCheck {
   std::vector<Convention> found;         ///< in the order in which they were mended; empty: nothing is wrong
   std::vector<std::string> not_checked;  ///< with what is missing, in words
   std::vector<std::string> untold;       ///< errors with which the recordings agree as well: "rate_x reversed"
+  std::size_t told = 0;                  ///< errors that would show, and do not
 };
 
 /// Whether channels agree with each other, and motion with commands by the layout: each known error of

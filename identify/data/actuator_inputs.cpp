@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/angles.h"
@@ -192,12 +193,20 @@ ActuatorInputs::ActuatorInputs(const config::Layout& layout, const RecordedMotio
     masses_.push_back(input_of("moving mass " + mass.name, of_channel(mass.channel, "moving_mass")));
 }
 
+template <class Is>
+bool ActuatorInputs::has_any(Is is) const {
+  return std::ranges::any_of(std::array{&thrusters_, &surfaces_, &ballasts_, &masses_}, [&](const auto* inputs) {
+    return std::any_of(inputs->begin(), inputs->end(),
+                       [&](const Input& input) { return input.signal != nullptr && is(input); });
+  });
+}
+
 bool ActuatorInputs::follow_commands() const {
-  const auto any = [](const std::vector<Input>& inputs) {
-    return std::any_of(inputs.begin(), inputs.end(),
-                       [](const Input& input) { return input.signal != nullptr && !input.is_position; });
-  };
-  return any(thrusters_) || any(surfaces_) || any(ballasts_) || any(masses_);
+  return has_any([](const Input& input) { return !input.is_position; });
+}
+
+bool ActuatorInputs::use(const std::string& signal) const {
+  return has_any([&](const Input& input) { return input.name == signal; });
 }
 
 std::vector<std::string> ActuatorInputs::oddities(const config::Layout& layout) const {

@@ -56,6 +56,8 @@ class ActuatorInputs {
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
   /// Whether an actuator follows a command; else all signals are positions.
   [[nodiscard]] bool follow_commands() const;
+  /// Whether this signal moves an actuator.
+  [[nodiscard]] bool use(const std::string& signal) const;
   /// What is odd about the commands, with the number that shows it: beyond limits, at a limit for long, gaps.
   [[nodiscard]] std::vector<std::string> oddities(const config::Layout& layout) const;
   /// Positions with the lags, limits and dead bands of this layout, which has the actuators of that of the
@@ -69,6 +71,9 @@ class ActuatorInputs {
     std::string name;
     std::shared_ptr<const Signal> converted;  ///< of pulses, in the unit of the thruster
   };
+  /// Whether a predicate holds for any input that has its signal.
+  template <class Is>
+  [[nodiscard]] bool has_any(Is is) const;
   [[nodiscard]] Input input_of(const std::string& actuator, const std::vector<std::string>& wanted);
 
   const RecordedMotion& motion_;

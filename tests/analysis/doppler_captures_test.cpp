@@ -7,10 +7,12 @@
 #include <fstream>
 #include <random>
 
+#include "analysis/import/import_log.h"
 #include "base/angles.h"
 #include "protocols/pd0.h"
 #include "sim/rotation.h"
 #include "tests/analysis/one_port.h"
+#include "tests/support/temporary_folder.h"
 
 namespace navcal::analysis {
 namespace {
@@ -65,6 +67,18 @@ TEST_P(DopplerCaptures, EveryByteIsAccountedForAndValuesArePlausible) {
     }
   }
   EXPECT_GT(with_lock, 40U);
+}
+
+TEST(SavedDopplerLog, ItsOwnClockGivesTheTimes) {
+  const auto file =
+      std::filesystem::path(NAVCAL_SOURCE_DIR).parent_path() / "shared" / "devices" / "pd0" / "RDI_withBT.000";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no captures of Doppler logs here";
+  const navcal::test::TemporaryFolder folder;
+  const ImportReport report = import_bytes(file, Protocol::pd0, 0, folder / "a.mcap", [](double) {});
+  // 1721 ensembles, 1.5 s apart, of which the file's last one is cut.
+  EXPECT_NEAR(static_cast<double>(report.duration_ns) * 1e-9, 1720 * 1.5, 5);
+  ASSERT_EQ(report.remarks.size(), 1U);
+  EXPECT_EQ(report.remarks.front(), "times are those of the device's own clock");
 }
 
 TEST_P(DopplerCaptures, DamageNeverBreaksIt) {

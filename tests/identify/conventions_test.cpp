@@ -161,6 +161,30 @@ TEST(Conventions, TwoAreFoundTogether) {
   EXPECT_NE(check.found[0].name, check.found[1].name);
 }
 
+TEST(Conventions, ATimeZoneIsToldOfComparedChannelsWithEnoughReadingsOnly) {
+  const VehicleCase vehicle = vehicle_case("rov");
+  const auto beside = [](double first_s, int count, double period_s) {
+    Signal signal;
+    for (int i = 0; i < count; ++i) {
+      signal.times_s.push_back(first_s + period_s * i);
+      signal.values.push_back(1);
+    }
+    return signal;
+  };
+  // As a glider logs them: sensors of other things, of which some say one word at the start.
+  RecordedMotion motion = dive(vehicle.prior, 71, Eigen::Vector3d::Zero());
+  motion.signals["science_is_installed"] = beside(-1800, 1, 1);
+  motion.signals["science_voltage"] = beside(-1800, 60, 1);
+  // Fixes at the surface, half an hour before the dive.
+  for (const Channel channel : {Channel::north, Channel::east}) {
+    auto& fixes = of(motion, channel);
+    fixes.resize(25);
+    for (std::size_t i = 0; i < fixes.size(); ++i) fixes[i].time_s = -1800 + static_cast<double>(i);
+  }
+  const ConventionCheck check = checked(vehicle.prior, motion);
+  EXPECT_TRUE(check.found.empty()) << words(check);
+}
+
 TEST(Conventions, AVehicleThatRestsTellsNothing) {
   const VehicleCase vehicle = vehicle_case("micro");
   RecordedMotion motion = draw_recording(vehicle, vehicle.prior, 60, 61);

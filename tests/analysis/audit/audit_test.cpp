@@ -6,10 +6,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 
 #include "analysis/audit/bounded.h"
+#include "analysis/import/import_log.h"
+#include "protocols/checked_line.h"
+#include "tests/support/temporary_folder.h"
 
 namespace navcal::analysis {
 namespace {
@@ -109,6 +114,80 @@ TEST(Audit, UnevenReadingsAreNoGaps) {
   const auto findings = sampling_findings(log);
   EXPECT_EQ(find(findings, "sampling.gaps"), nullptr);
   EXPECT_NE(find(findings, "sampling.irregular"), nullptr);
+}
+
+TEST(Audit, PausesByDesignAreNoFaultOfACable) {
+  const auto gaps_of = [](double period_s, std::size_t every, double pause_s) {
+    AuditedLog log;
+    auto time_s = times(1000, period_s);
+    for (std::size_t i = 0; i < time_s.size(); ++i)
+      time_s[i] += pause_s * std::floor(static_cast<double>(i) / static_cast<double>(every));
+    log.streams.push_back(stream(time_s));
+    return *find(sampling_findings(log), "sampling.gaps");
+  };
+  EXPECT_EQ(gaps_of(6.8, 400, 970).certainty, Certainty::likely) << "a glider at 0.15 Hz";
+  EXPECT_EQ(gaps_of(0.1, 100, 30).certainty, Certainty::likely) << "the same pause after each hundred readings";
+  EXPECT_EQ(gaps_of(0.1, 400, 30).certainty, Certainty::found);
+  EXPECT_EQ(gaps_of(6.8, 400, 970).todo.find("cable"), std::string::npos);
+}
+
+/// A log made of a file's text.
+AuditedLog loaded(const std::string& name, const std::string& text, const std::string& map = {}) {
+  const navcal::test::TemporaryFolder folder;
+  AuditRequest request{(folder / name).string()};
+  std::ofstream(folder / name) << text;
+  if (!map.empty()) {
+    request.import.map = (folder / "map.toml").string();
+    std::ofstream(request.import.map) << map;
+  }
+  return load_audited(request, [](std::string_view, double) { return true; });
+}
+
+TEST(Audit, AnInstrumentThatIsZeroAllTheTimeIsNotThere) {
+  std::string map = "[time]\ncolumn = \"t\"\nformat = \"s\"\n", rows = "t";
+  for (const char* quantity : {"rate", "force"}) {
+    for (const char axis : {'x', 'y', 'z'}) {
+      for (const int instance : {1, 2}) {
+        const std::string meaning = std::string(quantity) + "_" + axis,
+                          column = meaning + std::to_string(instance);
+        map += "[column." + column + "]\nmeaning = \"" + meaning + "\"\ninstance = " + std::to_string(instance) +
+               "\n";
+        rows += "," + column;
+      }
+    }
+  }
+  rows += "\n";
+  const auto noise = normal(1200, 0, 0.1);
+  for (std::size_t i = 0; i < 200; ++i) {
+    rows += std::to_string(0.1 * static_cast<double>(i));
+    for (std::size_t axis = 0; axis < 6; ++axis) rows += "," + std::to_string(noise[6 * i + axis]) + ",0";
+    rows += "\n";
+  }
+  const AuditedLog log = loaded("a.csv", rows, map);
+  ASSERT_EQ(log.streams.size(), 1U);
+  EXPECT_EQ(log.streams.front().channel, "imu");
+  EXPECT_EQ(log.all("rate_z").size(), 1U);
+  EXPECT_EQ(log.all("force_z").size(), 1U);
+}
+
+TEST(Audit, NothingIsSaidOfTimesThatNobodyStated) {
+  std::string bytes;
+  for (int i = 0; i < 100; ++i) {
+    for (int same = 0; same < (i % 10 == 0 ? 30 : 1); ++same) {
+      const auto line = protocols::checked_line("HEHDT,123.4,T");
+      bytes.append(line.begin(), line.end());
+    }
+    bytes += "$HEROT,,V*1E\r\n";
+  }
+  const AuditedLog log = loaded("a.nmea", bytes);
+  EXPECT_FALSE(log.states_times);
+  int of_times = 0;
+  for (const Finding& finding : audited(log).findings) {
+    if (!finding.name.starts_with("sampling.") && !finding.name.starts_with("delay.")) continue;
+    EXPECT_EQ(finding.certainty, Certainty::cannot_say) << finding.name;
+    of_times += finding.name.starts_with("sampling.") ? 1 : 0;
+  }
+  EXPECT_EQ(of_times, 1) << "it is said once";
 }
 
 TEST(Audit, RepeatedReadingsAndTimesThatGoBackAreCounted) {
