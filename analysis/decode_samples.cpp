@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analysis/decode_describe.h"
+#include "base/line_reader.h"
 #include "protocols/samples_line.h"
 
 namespace navcal::analysis {
@@ -28,10 +29,7 @@ void write_list(FieldWriter& fields, std::string_view key, std::string_view insi
   fields.begin_list(key);
   while (!inside.empty()) {
     const std::size_t comma = std::min(inside.find(','), inside.size());
-    std::string_view element = inside.substr(0, comma);
-    while (element.starts_with(' ')) element.remove_prefix(1);
-    while (element.ends_with(' ')) element.remove_suffix(1);
-    fields.written({}, element);
+    fields.written({}, base::trimmed(inside.substr(0, comma)));
     inside.remove_prefix(std::min(comma + 1, inside.size()));
   }
   fields.end_list();

@@ -7,6 +7,12 @@
 
 namespace navcal::base {
 
+/// Without these characters at either end.
+[[nodiscard]] constexpr std::string_view trimmed(std::string_view text, std::string_view ends = " \t\r\n") {
+  text.remove_prefix(text.find_first_not_of(ends) == text.npos ? text.size() : text.find_first_not_of(ends));
+  return text.substr(0, text.find_last_not_of(ends) + 1);
+}
+
 /// Cuts a stream of text into lines without ever holding more than `max_length` of it. A line longer than that
 /// makes the reader refuse everything from then on.
 class LineReader {

@@ -4,7 +4,6 @@
 #include <deque>
 
 #include "config/csv_map.h"
-#include "protocols/device_types.h"
 #include "protocols/text_fields.h"
 #include "record/capture/capture_recording.h"
 #include "record/log/log_recording.h"
@@ -107,16 +106,11 @@ std::unique_ptr<Recording> open_whole(const std::filesystem::path& file) {
   auto whole = std::make_unique<PeekedSource>(begin, std::move(source));
   if (begin == kMcapMagic) return std::make_unique<LogRecording>(std::move(whole), file.string(), LogUtc(file));
   if (begin == kCapture) return std::make_unique<CaptureRecording>(std::move(whole), file.string());
-  std::string devices;
-  for (const auto& device : protocols::kDeviceTypes) {
-    if (device.protocol != protocols::Protocol::described)
-      devices.append(devices.empty() ? "" : ", ").append(device.name);
-  }
   throw BadRecording(
       file.string() +
       ": neither a capture (\"#capture 1\") nor a log (MCAP); \"navcal log import\" reads those of other "
-      "systems that it knows by their content, and with --driver NAME the saved bytes of a device: " +
-      devices);
+      "systems that it knows by their content, and with --driver NAME (navcal log import --help) a device's "
+      "bytes");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "base/line_reader.h"
 
 namespace navcal::runs {
 namespace {
@@ -20,23 +21,16 @@ constexpr std::size_t kMostRows = 1'000'000;
 
 std::string_view next_line(std::string_view& rest) {
   const std::size_t end = rest.find('\n');
-  std::string_view line = rest.substr(0, end);
+  const std::string_view line = rest.substr(0, end);
   rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-std::string_view trimmed(std::string_view cell) {
-  while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
-  while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t')) cell.remove_suffix(1);
-  return cell;
+  return base::trimmed(line, "\r");
 }
 
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   for (;;) {
     const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
+    cells.push_back(base::trimmed(line.substr(0, comma)));
     if (comma == std::string_view::npos) return cells;
     line.remove_prefix(comma + 1);
   }
@@ -96,7 +90,7 @@ class RunReader {
   void read_row() {
     ++line_;
     const std::string_view line = next_line(rest_);
-    if (trimmed(line).empty()) return;
+    if (base::trimmed(line).empty()) return;
     const std::vector<std::string_view> cells = cells_of(line);
     if (cells.size() != headings_.size()) {
       throw BadRun(fmt::format("{}:{}: {} columns, where the heading has {}", file_, line_, cells.size(),

@@ -13,6 +13,7 @@ constexpr std::size_t kFewestReadings = 20;
 constexpr double kMissing = 1.6;      ///< periods between readings from which on one is missing
 constexpr double kIrregular_pc = 20;  ///< share of such intervals from which on there is no rate
 constexpr double kLongGap_s = 1, kLongGap_periods = 5, kFrozen_s = 2, kFrozen_periods = 10, kFewestMissing = 5;
+constexpr double kSeldom_s = 2;  ///< period of a vehicle that samples now and then, by design
 constexpr double kMissing_pc = 2, kRepeated_pc = 20, kLost_pc = 0.5, kReversed_pc = 0.1;
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
@@ -21,15 +22,6 @@ struct Rhythm {
   double period_s = 0, mean_s = 0, jitter_s = 0, missing = 0, expected = 0;
   double longest_s = 0, longest_at_s = 0;
   double intervals = 0, long_ones = 0, reversed = 0;
-  std::vector<double> gaps_s{};
-
-  /// A vehicle that samples seldom, or pauses for the same time again and again, does so by design.
-  [[nodiscard]] bool is_by_design() const {
-    constexpr std::size_t kFewest = 5;
-    constexpr double kSeldom_s = 2, kAlike = 1.5;
-    return period_s > kSeldom_s ||
-           (gaps_s.size() >= kFewest && quantile(gaps_s, 0.9) < kAlike * quantile(gaps_s, 0.1));
-  }
 };
 
 Rhythm rhythm_of(const std::vector<double>& time_s) {
@@ -49,7 +41,6 @@ Rhythm rhythm_of(const std::vector<double>& time_s) {
     rhythm.expected += periods;
     if (interval_s > kMissing * rhythm.period_s) {
       ++rhythm.long_ones;
-      if (periods > kLongGap_periods) rhythm.gaps_s.push_back(interval_s);
       rhythm.missing += periods - 1;
     } else {
       squares += (interval_s - rhythm.period_s) * (interval_s - rhythm.period_s);
@@ -97,11 +88,11 @@ Finding rhythm_finding(const AuditedStream& stream, const Rhythm& rhythm) {
         "{} of {} readings at {:.3g} Hz are missing, in {} gaps; the longest is {:.3g} s, from {:.1f} s on.",
         rhythm.missing, rhythm.expected, rate_Hz, rhythm.long_ones, rhythm.longest_s, rhythm.longest_at_s);
     finding.todo = "Look at cable, supply and load of the logger at the time of the longest gap.";
-    if (stream.kind == "motor") finding.certainty = Certainty::likely;  // commands may be logged when they change
-    if (rhythm.is_by_design()) {
-      finding.certainty = Certainty::likely;
+    const bool is_seldom = rhythm.period_s > kSeldom_s;
+    // Commands may be logged when they change.
+    if (is_seldom || stream.kind == "motor") finding.certainty = Certainty::likely;
+    if (is_seldom)
       finding.todo = "None where the vehicle samples so by design: in parts of a dive, or to save power.";
-    }
   } else {
     finding.put_count(rate_Hz, "Hz");
     finding.sentence = fmt::format("{} readings, {:.4g} Hz, jitter {:.3f} ms, longest interval {:.3g} s.",

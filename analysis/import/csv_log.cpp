@@ -11,20 +11,15 @@
 #include <optional>
 
 #include "analysis/import/csv_samples.h"
+#include "base/line_reader.h"
 #include "record/recording.h"
 
 namespace navcal::analysis {
 namespace {
 
+using base::trimmed;
 using config::CsvMap;
 using config::CsvTime;
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
-    text.remove_suffix(1);
-  return text;
-}
 
 /// Cells of one line; a cell in quotes may hold the delimiter. Quotes that are doubled stay doubled.
 void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {

@@ -32,10 +32,8 @@ class DeviceSurvey : private instruments::Receiver {
   void operator()(const protocols::Frame& frame) {
     frame_ = frame.offset;
     const std::uint64_t before = samples;
-    if (is_pd0_) {
-      if (const auto leader = protocols::pd0::decode(frame.bytes).variable; leader && is_valid(leader->date))
-        tick(clock, frame_, unix_ns(leader->date, leader->time));
-    }
+    const auto leader = is_pd0_ ? protocols::pd0::decode(frame.bytes).variable : std::nullopt;
+    if (leader && is_valid(leader->date)) tick(clock, frame_, unix_ns(leader->date, leader->time));
     const auto verdict = instrument_->read(frame, *this);
     if (verdict == Verdict::begins) epoch_ = frame.offset;
     const std::string kind(frame.id.view());

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/line_reader.h"
 #include "config/column_meaning.h"
 #include "config/described/description_file.h"
 #include "config/described/parts.h"
@@ -178,16 +179,10 @@ void read_scale(TableReader& table, Field& field) {
   if (const auto std = table.number("std", 0, kLargest, field.unit)) field.std = *std * field.factor;
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
-}
-
 /// Takes what stands before `sign` off the front.
 std::string_view take_until(std::string_view& text, char sign) {
   const std::size_t at = text.find(sign);
-  const std::string_view front = trimmed(text.substr(0, at));
+  const std::string_view front = base::trimmed(text.substr(0, at));
   text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
   return front;
 }
@@ -230,12 +225,12 @@ std::optional<std::string> adjust(protocols::described::Description& description
   }
   if (fields.empty())
     return fmt::format("the description has no field {}", to_toml_text(name)) + suggestion(name, names);
-  if (trimmed(adjustment).empty())
+  if (base::trimmed(adjustment).empty())
     return fmt::format("{} lacks what is to be changed, such as \"{}: zero = 1\"", to_toml_text(name), name);
   while (!adjustment.empty()) {
     std::string_view part = take_until(adjustment, ',');
     const std::string_view key = take_until(part, '=');
-    part = trimmed(part);
+    part = base::trimmed(part);
     double number = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
     if (error != std::errc{} || end != part.data() + part.size() || !(std::abs(number) <= kLargest))

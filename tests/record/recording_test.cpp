@@ -84,8 +84,8 @@ TEST_F(RecordingFiles, WhatIsNeitherIsRefusedByName) {
         std::string(error.what())
             .starts_with(file.string() +
                          ": neither a capture (\"#capture 1\") nor a log (MCAP); \"navcal log import\" reads "
-                         "those of other systems that it knows by their content, and with --driver NAME the "
-                         "saved bytes of a device: tcm2, "))
+                         "those of other systems that it knows by their content, and with --driver NAME "
+                         "(navcal log import --help) a device's bytes"))
         << error.what();
   }
   EXPECT_THROW(Recording::open(path_ / "absent"), BadRecording);
