@@ -64,8 +64,8 @@ TEST_F(IdentifyProgram, ALayoutThatIsWorseThanTheFileIsNotWritten) {
   config::Layout prior = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml");
   prior.uncertainties = {{"damping.axial.coefficient", 0.2, {}}};
   std::ofstream(folder_ / "prior.toml") << config::layout_file(prior);
-  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 25 --seed 5 --effect thrust_scale=-8 -o a.cap"),
-            0)
+  ASSERT_EQ(
+      run_navcal("simulate --mission identification --seconds 25 --seed 5 --effect thrust_scale=-8 -o a.cap"), 0)
       << said("err");
   ASSERT_EQ(run_navcal("simulate --mission identification --seconds 25 --seed 6 -o b.cap"), 0) << said("err");
   const std::string identify = "identify --no-advice --vehicle prior.toml --holdout b.cap -o fit.toml a.cap";
