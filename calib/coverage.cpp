@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "calib/magnetometer/field_coverage.h"
+#include "calib/field_coverage.h"
 
 namespace navcal::calib {
 

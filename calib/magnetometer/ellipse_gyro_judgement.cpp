@@ -8,10 +8,10 @@
 #include <string>
 
 #include "base/angles.h"
+#include "calib/field_coverage.h"
 #include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/magnetometer/ellipse_judgement.h"
 #include "calib/magnetometer/ellipse_shape.h"
-#include "calib/magnetometer/field_coverage.h"
 
 namespace navcal::calib {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/symmetric_eigen.h"
+#include "calib/field_coverage.h"
 #include "calib/magnetometer/ellipse_estimator.h"
 #include "calib/magnetometer/ellipse_shape.h"
-#include "calib/magnetometer/field_coverage.h"
 
 namespace navcal::calib {
 namespace {

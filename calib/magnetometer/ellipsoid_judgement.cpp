@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "calib/field_coverage.h"
 #include "calib/magnetometer/ellipse_judgement.h"
 #include "calib/magnetometer/ellipsoid_estimator.h"
-#include "calib/magnetometer/field_coverage.h"
 
 namespace navcal::calib {
 

@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "calib/coverage.h"
-#include "calib/magnetometer/field_coverage.h"
+#include "calib/field_coverage.h"
 
 namespace navcal::calib {
 namespace {

@@ -230,8 +230,6 @@ TEST_F(FleetProgram, TellsWhatItsMissionsSayTogether) {
 }
 
 TEST_F(FleetProgram, RecordsAndScoresATrial) {
-  EXPECT_EQ(run({"trial", "record"}), 1);
-  EXPECT_NE(err_.find("bench_fleet_trial"), std::string::npos) << err_;
   const std::string truth = (folder_ / "truth.json").string(), missions = (folder_ / "missions").string();
   ASSERT_EQ(run_trial({"record", "-o", missions, "--truth", truth, "--vehicles", "2", "--days", "1", "--minutes",
                        "3", "--seed", "5"}),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/magnetometer/field_coverage.h"
+#include "calib/field_coverage.h"
 
 #include <gtest/gtest.h>
 
