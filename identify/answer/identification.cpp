@@ -159,10 +159,10 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
   try {
     const Prediction of = predict({answer.layout, request.held_out, request.recordings}, [](double) {});
     const Prediction before = predict({request.prior, request.held_out, request.recordings}, [](double) {});
-    if (of.layout_error > kFarther * before.layout_error)
+    if (of.by_velocity == before.by_velocity && of.layout_error > kFarther * before.layout_error)
       answer.worse = fmt::format("its predictions are off by {:.3g}, by {:.3g} with the numbers of the file ({})",
                                  of.layout_error, before.layout_error,
-                                 of.is_steered ? "velocity after 1 s, m/s" : "position after 10 s, m");
+                                 of.by_velocity ? "velocity after 1 s, m/s" : "position after 10 s, m");
     for (const auto& [is_worse, what] : {std::pair{of.worse_than_linear, "a linear regression"},
                                          std::pair{of.worse_than_hold, "holding the velocity"}})
       if (is_worse)

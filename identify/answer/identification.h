@@ -69,8 +69,7 @@ struct Identification {
   int iterations = 0;
   bool converged = false;
   config::Layout layout;  ///< fitted, with standard errors
-  /// Why the held-out recordings speak against the fitted numbers; empty: they do not.
-  std::string worse;
+  std::string worse;      ///< why the held-out recordings speak against the numbers; empty: they do not
 };
 
 /// Fits the uncertain numbers of the layout. Throws std::invalid_argument in words for what cannot be fitted: no

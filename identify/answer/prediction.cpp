@@ -174,8 +174,8 @@ void judge(Prediction& all) {
   const double other =
       std::min(of(farthest.position_m, Predictor::hold), of(farthest.position_m, Predictor::linear));
   all.is_steered = farthest.starts > 0 && of(farthest.position_m, Predictor::still) < kSteered * other;
-  const bool by_velocity = all.is_steered || all.errors[1].starts == 0;
-  const auto& row = by_velocity ? all.errors[0].velocity_m_s : all.errors[1].position_m;
+  all.by_velocity = all.is_steered || all.errors[1].starts == 0;
+  const auto& row = all.by_velocity ? all.errors[0].velocity_m_s : all.errors[1].position_m;
   all.layout_error = of(row, Predictor::layout);
   all.worse_than_linear = all.layout_error > of(row, Predictor::linear);
   all.worse_than_hold = all.layout_error > of(row, Predictor::hold);

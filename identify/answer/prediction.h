@@ -39,8 +39,9 @@ struct Prediction {
   /// Standing still is not three times worse than holding and the regression: errors after 10 and 60 s judge the
   /// vehicle's controller.
   bool is_steered = false;
-  /// Error of the layout by which it is judged: of the position after 10 s, m, or of the velocity after 1 s, m/s,
-  /// where the vehicle is steered or no 10 s are measured. Whether it is larger than that of the others.
+  /// Error of the layout by which it is judged, and whether it is larger than that of the others: of the velocity
+  /// after 1 s, m/s, where the vehicle is steered or no 10 s are measured; else of the position after 10 s, m.
+  bool by_velocity = false;
   double layout_error = 0;
   bool worse_than_linear = false, worse_than_hold = false;
   std::size_t diverged = 0;  ///< starts from which the layout left all bounds; its last state counts
