@@ -141,9 +141,10 @@ void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate
                     answer.left_out));
   if (!bounds.empty()) answer.warnings.push_back("numbers at a bound: " + bounds);
   if (estimate.start_spread > kApart_sigma)
-    answer.warnings.push_back(
-        fmt::format("two starts of the fit end up to {:.1f} stated errors apart; the likelier one is shown",
-                    estimate.start_spread));
+    answer.warnings.push_back(fmt::format(
+        "two starts of the fit end up to {:.1f} stated errors apart; the likelier one is shown, and the "
+        "standard errors contain the difference",
+        estimate.start_spread));
   if (!poor.empty())
     answer.warnings.push_back(
         "the fitted vehicle does not explain the recordings: noise over the instruments' own: " + poor);

@@ -15,6 +15,7 @@ constexpr int kFewSteps = 6, kMostSteps = 12, kRounds = 3;
 constexpr double kRoundSettled = 0.5;  ///< of the cost, from round to round
 constexpr std::size_t kLag = 2;        ///< blocks that count as correlated
 constexpr double kBlocksPerUnknown = 5;
+constexpr double kApart = 2;  ///< stated errors between the ends of two starts that are not chance
 
 /// Disturbances so strong that the filter follows the readings: steps from one to the next remain.
 FilterNoises equation_error() {
@@ -69,6 +70,13 @@ Eigen::VectorXd variance_between(const PredictionErrorProblem& problem,
   return (square - sum.cwiseAbs2() / n).cwiseMax(0) / (n * (n - 1));
 }
 
+/// Standard errors times these factors, correlations as they are.
+void grow(Estimate& estimate, Eigen::Index parameters, const Eigen::VectorXd& factors) {
+  estimate.border_covariance = factors.asDiagonal() * estimate.border_covariance * factors.asDiagonal();
+  estimate.covariance = estimate.border_covariance.topLeftCorner(parameters, parameters);
+  estimate.stds = estimate.covariance.diagonal().cwiseSqrt();
+}
+
 void add_covariance(const PredictionErrorProblem& problem, Estimate& estimate) {
   const auto linear = problem.linearise(estimate.point, Parameters::free);
   const Eigen::MatrixXd& data = linear.information;
@@ -93,10 +101,8 @@ void add_covariance(const PredictionErrorProblem& problem, Estimate& estimate) {
   const auto parameters = std::ssize(problem.parameters());
   Eigen::VectorXd variance = robust.diagonal().cwiseMax(model.diagonal());
   variance.head(parameters) = variance.head(parameters).cwiseMax(variance_between(problem, linear));
-  const Eigen::VectorXd grown = variance.cwiseQuotient(model.diagonal()).cwiseSqrt();
-  estimate.border_covariance = grown.asDiagonal() * model * grown.asDiagonal();
-  estimate.covariance = estimate.border_covariance.topLeftCorner(parameters, parameters);
-  estimate.stds = estimate.covariance.diagonal().cwiseSqrt();
+  estimate.border_covariance = model;
+  grow(estimate, parameters, variance.cwiseQuotient(model.diagonal()).cwiseSqrt());
 }
 
 /// Instruments and disturbances at these unknowns, the parameters as they are.
@@ -159,14 +165,20 @@ Estimate estimate(PredictionErrorProblem& problem, const FitProgress& progress) 
   const FilterNoises noises = problem.noises();
   Point other = begun(problem, true, progress);
   const int steps = point.steps + other.steps;
-  const Eigen::VectorXd apart = point.unknowns - other.unknowns;
   if (other.cost < point.cost) {
-    point = std::move(other);
+    std::swap(point, other);
   } else {
     problem.set_noises(noises);
   }
   Estimate estimate = settled(problem, std::move(point), steps, progress);
-  estimate.start_spread = apart.head(estimate.stds.size()).cwiseQuotient(estimate.stds).cwiseAbs().maxCoeff();
+  if (other.passes.empty()) return estimate;
+  const Eigen::VectorXd apart = (estimate.unknowns - other.unknowns).head(estimate.stds.size());
+  const Eigen::ArrayXd spread = apart.cwiseQuotient(estimate.stds).cwiseAbs();
+  estimate.start_spread = spread.maxCoeff();
+  // What the two searches do not agree on, the recordings have not told.
+  Eigen::VectorXd grown = Eigen::VectorXd::Ones(estimate.border_covariance.rows());
+  grown.head(spread.size()) = (spread > kApart).select((1 + spread.square()).sqrt(), 1);
+  grow(estimate, spread.size(), grown);
   return estimate;
 }
 

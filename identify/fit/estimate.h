@@ -87,7 +87,7 @@ struct Estimate {
   Eigen::MatrixXd covariance;         ///< of the parameters
   Eigen::MatrixXd border_covariance;  ///< of parameters and nuisances
   double model_error = 1;   ///< variance of the blocks' scores over that of white innovations, at least 1
-  double start_spread = 0;  ///< greatest difference of the ends of two starts, in stated errors
+  double start_spread = 0;  ///< greatest difference of the ends of two starts, in errors without it
   int iterations = 0;
   bool converged = false;
 };
@@ -100,7 +100,8 @@ struct Estimate {
 /// The covariance is A^-1 (B + P) A^-1 with P the priors' precision, A = H + P, and B the covariance of the score.
 /// Under the model B = H. It is estimated from the scores of blocks of 5 s and their neighbours (Newey and West
 /// 1987, Econometrica 55), drawn to c H with few blocks, c >= 1 the mean of the empirical over the expected
-/// variance. No error is below that of the model, nor below the scatter of the recordings' own estimates.
+/// variance. No error is below that of the model, nor below the scatter of the recordings' own estimates. Where
+/// the ends of the two starts are more than two errors apart, the error contains the difference.
 [[nodiscard]] Estimate estimate(PredictionErrorProblem& problem, const FitProgress& progress);
 
 /// The same about these parameters, from which alone it starts.

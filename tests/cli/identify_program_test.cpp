@@ -59,6 +59,20 @@ TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {
   EXPECT_NE(said("err").find("s of it are in a.cap as well, so it is left out"), std::string::npos) << said("err");
 }
 
+// A survey hardly tells the front thrusters from the rear ones. Two searches end far apart there.
+TEST_F(IdentifyProgram, StandardErrorsContainWhatTwoSearchesDisagreeOn) {
+  const std::string vehicle = "--vehicle " NAVCAL_SOURCE_DIR "/share/vehicles/bluerov2-heavy.toml";
+  ASSERT_EQ(run_navcal("simulate --mission survey --seconds 30 --seed 3 -o a.cap " + vehicle), 0) << said("err");
+  ASSERT_EQ(run_navcal("identify --no-advice -o fit.toml --json fit.json a.cap " + vehicle), 0) << said("err");
+  const auto parameters = nlohmann::json::parse(said("fit.json")).at("parameters");
+  for (const auto& [name, one] : parameters.items()) {
+    // The simulated vehicle is that of the file.
+    EXPECT_LT(std::abs(one.at("value").get<double>() - one.at("prior").get<double>()),
+              5 * one.at("std").get<double>())
+        << name;
+  }
+}
+
 // Recordings of a vehicle that is not that of the others.
 TEST_F(IdentifyProgram, ALayoutThatIsWorseThanTheFileIsNotWritten) {
   config::Layout prior = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml");
