@@ -196,18 +196,19 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
   const bool is_stated =
       own != log.heading_std_deg.end() && quantile(own->second.values, 0) < quantile(own->second.values, 1);
   if (is_stated) finding.stated = quantile(own->second.values, 0.5);
-  if (!value)
-    return finding.cannot(
-        "The compass could not be calibrated, or the field stepped, so that nothing judges this heading" +
-            (finding.stated ? fmt::format(", nor the error of {:.1f} deg that it states.", *finding.stated)
-                            : std::string(".")),
-        "Turn through all headings twice.");
+  const Finding uncalibrated = finding.cannot(
+      "The compass could not be calibrated, or the field stepped, so that nothing judges this heading" +
+          (finding.stated ? fmt::format(", nor the error of {:.1f} deg that it states.", *finding.stated)
+                          : std::string(".")),
+      "Turn through all headings twice.");
+  if (!value) return uncalibrated;
   if (is_stated && errors->stated_deg) finding.stated = errors->stated_deg;
   const double own_deg = 1.96 * errors->reference_std_rad * kDegreesPerRadian;
   finding.put({value->value, std::max(value->low - own_deg, 0.0), value->high + own_deg}, "deg");
   finding.sentence = fmt::format(
-      "This heading is {:.1f} deg (root mean square) off that of the field, calibrated on the {} log{}.",
+      "This heading is {:.1f} deg (root mean square) off that of the field, calibrated on the {} log{}{}.",
       value->value, errors->is_of_other_half ? "other half of the" : "whole",
+      errors->is_accepted ? "" : ", as far as that determines it",
       errors->is_absolute ? "" : "; a constant part cannot be told and is left out");
   finding.sentence += !finding.stated
                           ? " It states no error of its own."
@@ -215,8 +216,10 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
                                         *finding.low > *finding.stated ? "does not hold"
                                         : errors->is_absolute          ? "holds"
                                                                        : "holds but for that part");
-  if (!finding.is_beyond(0, kStatedHeading_deg)) return finding;
-  finding.certainty = channel.port == log.compass ? Certainty::found : Certainty::likely;
+  const bool is_beyond = finding.is_beyond(0, kStatedHeading_deg);
+  if (!is_beyond && !errors->is_accepted) return uncalibrated;
+  if (!is_beyond) return finding;
+  finding.certainty = channel.port == log.compass && errors->is_accepted ? Certainty::found : Certainty::likely;
   finding.todo = "Calibrate the compass that this heading comes from, then compare again.";
   finding.put_heading(value->value, log.speed_m_s());
   AuditPicture::Points points;

@@ -26,6 +26,14 @@ const FieldCorrection* accepted_field(const calib::Report& report) {
   return &*report.estimates.magnetometer;
 }
 
+/// The same, or one that is too uncertain to correct by, with a standard error that holds.
+const FieldCorrection* determined_field(const calib::Report& report) {
+  const auto* const magnetometer = report.find(Calibrator::magnetometer);
+  const auto* const worst = magnetometer != nullptr ? magnetometer->quantity("worst_heading_rad") : nullptr;
+  const bool is_determined = worst != nullptr && std::isfinite(worst->std) && report.estimates.magnetometer;
+  return is_determined ? &*report.estimates.magnetometer : accepted_field(report);
+}
+
 /// The field in body axes with the tilt that levels it.
 struct TiltedField {
   double time_s = 0;
@@ -172,11 +180,12 @@ double motor_heading_rad(const AuditedLog& log, const calib::MotorCurrentCorrect
 
 std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading) {
   std::array halves{accepted_field(log.halves[0].report), accepted_field(log.halves[1].report)};
-  const auto* const whole = accepted_field(log.whole.report);
+  const auto* const whole = determined_field(log.whole.report);
   if (whole == nullptr || log.whole.report.segments.size() > 1) return std::nullopt;
   HeadingErrors errors;
   // A stated heading has no part in the fit of the field: the calibration of the whole log may judge it, too.
   errors.is_of_other_half = halves[0] != nullptr && halves[1] != nullptr;
+  errors.is_accepted = errors.is_of_other_half || accepted_field(log.whole.report) != nullptr;
   if (!errors.is_of_other_half) halves = {whole, whole};
   // A device of the compass states magnetic north; the autopilot states true north.
   const bool is_own = heading.port == log.compass;

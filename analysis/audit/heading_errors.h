@@ -31,8 +31,9 @@ struct HeadingErrors {
   bool is_absolute = false;            ///< false: the mean is left out
   bool is_of_other_half = true;        ///< false: the field was calibrated on the whole log
   std::optional<double> stated_deg{};  ///< root mean square of the standard errors that the device itself states
+  bool is_accepted = true;             ///< false: the calibration is too uncertain to correct by
 };
-/// nullopt where the log has no accepted calibration, or the field stepped.
+/// nullopt where the log has no calibration with a standard error, or the field stepped.
 [[nodiscard]] std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const RecordedChannel& heading);
 
 /// Root mean square of the changes of a field that the rates do not explain while the vehicle turns: as sent, and

@@ -532,7 +532,13 @@ TEST(Audit, TheErrorThatAHeadingStatesIsShownBesideItsOwn) {
   EXPECT_NE(heading_with(2).sentence.find("states an error of 2.0 deg, which does not hold"), std::string::npos)
       << heading_with(2).sentence;
   EXPECT_NE(heading_with(12).sentence.find("12.0 deg, which holds"), std::string::npos);
-  log.whole.report.calibrators.front().judgement.accepted = false;
+  auto& magnetometer = log.whole.report.calibrators.front();
+  magnetometer.judgement.accepted = false;
+  EXPECT_EQ(heading_with(2).certainty, Certainty::likely) << "what is too uncertain to correct by may judge";
+  EXPECT_NE(heading_with(2).sentence.find("as far as that determines it"), std::string::npos);
+  magnetometer.estimate.front().std = 0.1;
+  EXPECT_EQ(heading_with(2).certainty, Certainty::cannot_say) << "but not what is as wrong as the heading";
+  magnetometer.estimate.front().std = INFINITY;
   EXPECT_NE(heading_with(2).sentence.find("nor the error of 2.0 deg that it states"), std::string::npos);
   log.heading_std_deg["attitude"].values.back() = 2;
   EXPECT_FALSE(find(compass_findings(log), "compass.heading")->stated) << "a constant is of the configuration";
