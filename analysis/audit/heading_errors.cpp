@@ -178,11 +178,11 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   // A stated heading has no part in the fit of the field: the calibration of the whole log may judge it, too.
   errors.is_of_other_half = halves[0] != nullptr && halves[1] != nullptr;
   if (!errors.is_of_other_half) halves = {whole, whole};
-  // A device of the compass states magnetic north; the autopilot states true north.
-  const bool is_own = heading.port == log.compass;
+  // A device of the compass states magnetic north, but for its filter; the autopilot states true north.
+  const bool is_magnetic = heading.port == log.compass && !log.true_headings.contains(heading.port);
   errors.is_absolute =
-      is_own || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
-  const double declination_rad = is_own || !log.earth ? 0 : log.earth->declination_rad;
+      is_magnetic || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
+  const double declination_rad = is_magnetic || !log.earth ? 0 : log.earth->declination_rad;
   const auto own = log.heading_std_deg.find(heading.port);
   double squares = 0, count = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
