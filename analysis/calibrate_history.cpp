@@ -41,7 +41,7 @@ double CalibrateHistory::seconds(const instruments::Sample& sample) {
 void CalibrateHistory::on_sample(const instruments::Sample& sample) {
   (void)sources_.take(sample);
   if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
-    if (sources_.learnt().compass != sample.port || pipeline::roles_of(sample).is_empty()) return;
+    if (sources_.learnt().compass != sample.port || !pipeline::is_reading_of_compass(*compass)) return;
     ++readings_;
     put(pipeline::calib_reading(*compass, sample.stamp, seconds(sample)));
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {

@@ -65,6 +65,8 @@ Role leader_of(Role role) { return row_of(role).leader; }
 
 bool can_deliver(protocols::Protocol protocol, Role role) {
   const auto& device = protocols::device_type(protocol);
+  // The heading of an autopilot is an estimate by the compass that would be calibrated against it.
+  if (role == Role::heading_reference && protocol == protocols::Protocol::mavlink) return false;
   const auto delivers = row_of(role).delivers;
   return device.delivers.*delivers || (delivers == &Delivery::heading && device.heading_if_chosen);
 }

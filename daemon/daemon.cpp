@@ -343,6 +343,7 @@ void Daemon::report_health(std::int64_t now_ns) {
 
 std::vector<std::string> Daemon::health(std::int64_t now_ns) const {
   Health health;
+  health.heading_source = state_.heading_source();
   health.utc_ns = utc(now_ns);
   health.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   health.alarms = alarms_.standing();

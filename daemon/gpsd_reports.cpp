@@ -216,6 +216,8 @@ void append_att(std::string& out, const instruments::CompassSample& compass, con
     fixed(out, "heading", heading_deg, 4);
     fixed(out, "yaw", heading_deg, 4);
     out += is_true ? R"(,"north":"true")" : R"(,"north":"magnetic")";
+    if (source.is_autopilot)
+      out += compass.heading_is_true ? R"(,"heading_source":"autopilot")" : R"(,"heading_source":"calibration")";
   }
   if (compass.heading_calibrated_rad)
     fixed(out, "heading_device", compass.heading_rad, 4, base::kDegreesPerRadian);

@@ -19,6 +19,7 @@ struct ReportSource {
   std::string_view device;
   bool utc_known = true;
   instruments::CalibrationName calibration{};  ///< in force when the sample was made
+  bool is_autopilot = false;                   ///< its own headings are estimates
 };
 
 /// TPV: time is the second that the message states. Position and its standard errors only when the receiver calls

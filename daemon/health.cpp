@@ -107,8 +107,10 @@ void append_sources(std::string& out, const Health& health) {
     fmt::format_to(std::back_inserter(out), FMT_STRING("\"{}\":"), config::name_of(role));
     append_quoted(out, health.ports[*sources[role]]->settings().name);
   }
+  out += '}';
+  if (!health.heading_source.empty()) text(out, "heading_source", health.heading_source);
   const pipeline::EarthField& field = health.pipeline->earth_field();
-  fmt::format_to(std::back_inserter(out), FMT_STRING("}},\"earth_field\":{{\"declination_source\":\"{}\""),
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"earth_field\":{{\"declination_source\":\"{}\""),
                  pipeline::name_of(field.declination_source));
   if (field.declination_source != pipeline::EarthField::Source::none)
     number(out, "declination", field.declination_rad * base::kDegreesPerRadian, 3);

@@ -29,6 +29,7 @@ struct Health {
   std::size_t clients = 0;
   std::size_t client_queue_bytes = 0;  ///< waiting for all clients together
   std::uint64_t client_dropped = 0;    ///< reports missed by all clients together
+  std::string_view heading_source;     ///< StateCollector's
 };
 
 /// Number of ports in one line: libgps reads lines of up to 10 kB, so more ports make more lines.

@@ -49,7 +49,8 @@ class Publisher {
   };
   void append(const instruments::Sample& sample, ReportSource source);
   [[nodiscard]] ReportSource source(std::uint16_t port) const {
-    return {settings_.ports[port].name, utc_known_, {}};
+    const config::PortSettings& settings = settings_.ports[port];
+    return {settings.name, utc_known_, {}, settings.protocol == protocols::Protocol::mavlink};
   }
 
   const config::Settings& settings_;

@@ -31,6 +31,10 @@ double turned(double heading_rad, double by_rad) {
   return sum < 0 ? sum + 2 * std::numbers::pi : sum;
 }
 
+bool has_heading(const instruments::CompassSample& compass) {
+  return compass.heading_rad || compass.heading_calibrated_rad;
+}
+
 /// Rates of roll, pitch and heading at given body rates (Fossen, Handbook of Marine Craft Hydrodynamics and
 /// Motion Control, eq. 2.28).
 struct AngleRates {
@@ -64,7 +68,9 @@ StateCollector::StateCollector(const config::Settings& settings, const pipeline:
 void StateCollector::take(const instruments::Sample& sample) {
   Last& last = last_[sample.port];
   if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
-    last.compass = {sample.stamp, *compass, sample.port};
+    // One device may send heading and field apart.
+    if (has_heading(*compass) || !last.compass || !has_heading(last.compass->value))
+      last.compass = {sample.stamp, *compass, sample.port};
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
     last.imu = {sample.stamp, *imu, sample.port};
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
@@ -85,8 +91,15 @@ double StateCollector::gauge_below_origin_m(std::uint16_t port) const {
 
 bool StateCollector::is_serving_compass(const instruments::Sample& sample) const {
   const auto* compass = std::get_if<instruments::CompassSample>(&sample.value);
-  return compass != nullptr && compass->heading_rad &&
+  return compass != nullptr && has_heading(*compass) &&
          pipeline_.sources()[Role::heading].value_or(sample.port) == sample.port;
+}
+
+std::string_view StateCollector::heading_source() const {
+  const auto compass = serving().compass;
+  if (!compass || !has_heading(compass->value)) return {};
+  if (compass->value.heading_calibrated_rad) return "calibration";
+  return settings_.ports[compass->port].protocol == protocols::Protocol::mavlink ? "autopilot" : "device";
 }
 
 StateCollector::Last StateCollector::serving() const {

@@ -35,6 +35,8 @@ class StateCollector {
   [[nodiscard]] VehicleState at(std::int64_t now_ns);
   /// True when a sample comes from the compass in use.
   [[nodiscard]] bool is_serving_compass(const instruments::Sample& sample) const;
+  /// The heading is by a "calibration", by the "device" itself, or the estimate of an "autopilot"; empty: none.
+  [[nodiscard]] std::string_view heading_source() const;
 
  private:
   template <class Value>

@@ -11,6 +11,10 @@
 
 namespace navcal::instruments {
 
+/// Standard error of an autopilot's heading where it states none: 10 degrees. A compass that it has calibrated by
+/// itself, beside motors, with the declination of its own table (docs/icd.md, section 17).
+inline constexpr double kAutopilotHeadingStd_rad = 0.17453292519943295;
+
 /// The compass calibrations that an ArduPilot autopilot applies before it sends a field, by its parameters
 /// (AP_Compass_Backend::correct_field):
 ///   field = D (measured + OFS) SCALE + MOT current

@@ -74,6 +74,7 @@ std::span<const MavlinkReading> MavlinkDecoder::read(const mavlink::Message& mes
       attitude.pitch_rad = angles_rad[1];
       attitude.heading_rad = base::as_heading(angles_rad[2]);
       attitude.heading_is_true = true;
+      attitude.heading_std_rad = kAutopilotHeadingStd_rad;
       set_boot_ms(payload);
       put(attitude);
       break;

@@ -18,8 +18,7 @@ namespace {
 
 constexpr std::int64_t kAttitudeAge_ns = 100'000'000;
 
-/// The sensors behind an autopilot at one port. The field gets the tilt of the newest attitude. The heading that
-/// the autopilot estimates is no reading of a compass, and becomes a sample of its own.
+/// The sensors behind an autopilot at one port. The field gets the tilt of the newest attitude.
 class MavlinkVehicle final : public Instrument {
  public:
   explicit MavlinkVehicle(const config::PortSettings& settings)
@@ -39,7 +38,7 @@ class MavlinkVehicle final : public Instrument {
     auto verdict = Verdict::ignored;
     for (MavlinkReading reading : decoder_.read(message)) {
       if (!is_wanted(reading)) continue;
-      if (auto* const compass = std::get_if<CompassSample>(&reading.value)) complete(*compass, reading, receiver);
+      if (auto* const compass = std::get_if<CompassSample>(&reading.value)) complete(*compass, reading);
       hand_over_reading(reading, message.component, receiver);
       verdict = Verdict::used;
     }
@@ -56,13 +55,8 @@ class MavlinkVehicle final : public Instrument {
     return reading.instance == unit_ || (compass == nullptr && !std::holds_alternative<ImuSample>(reading.value));
   }
 
-  void complete(CompassSample& compass, const MavlinkReading& reading, Receiver& receiver) {
+  void complete(CompassSample& compass, const MavlinkReading& reading) {
     if (compass.heading_rad) {
-      MavlinkReading heading = reading;
-      heading.value = ScalarSample{Text<24>("autopilot_heading"), Text<16>("rad"), *compass.heading_rad, {}};
-      hand_over_reading(heading, protocols::mavlink::kAutopilot, receiver);
-      compass.heading_rad.reset();
-      compass.heading_is_true = false;
       tilt_ = compass;
       tilt_ns_ = reading.device_time_ns;
     } else if (tilt_ns_ && reading.device_time_ns &&

@@ -93,9 +93,11 @@ void Navigator::take(const RateReading& reading) {
 }
 
 void Navigator::take(const CompassReading& reading) {
-  const auto pose = pose_for(compass_ns_, reading.time_ns, plausible(reading));
+  // A tilt alone makes no heading old that is measured before it.
+  Last& last = reading.heading_rad ? compass_ns_ : tilt_reading_ns_;
+  const auto pose = pose_for(last, reading.time_ns, plausible(reading));
   if (!pose) return;
-  if (reading.roll_rad && reading.pitch_rad) {
+  if (reading.roll_rad && reading.pitch_rad && (!tilt_ns_ || reading.time_ns > *tilt_ns_)) {
     // The fluid shows the tilt of some time ago.
     const double lag_s = reading.tilt_lags ? options_.attitude.tilt_lag_s : 0;
     const std::int64_t felt_ns = reading.time_ns - std::llround(lag_s * 1e9);
@@ -112,7 +114,8 @@ void Navigator::take(const CompassReading& reading) {
         attitude_.correct_heading(base::wrapped(*reading.heading_rad - pose->heading_rad), since_s);
     past_.correct({0, 0, turned});
     heading_ns_ = reading.time_ns;
-    heading_calibrated_ = reading.calibrated;
+    heading_error_rad_ = reading.calibrated ? options_.heading_error_calibrated_rad
+                                            : std::max(options_.heading_error_rad, reading.heading_std_rad);
     drift_rad_ = 0;
   }
 }
@@ -221,9 +224,7 @@ Vector2d Navigator::ahead() const {
 
 double Navigator::heading_std_rad() const {
   if (!attitude_.heading_known()) return kAnyHeading_rad;
-  const double error_rad =
-      heading_calibrated_ ? options_.heading_error_calibrated_rad : options_.heading_error_rad;
-  return std::min(std::hypot(error_rad, drift_rad_), kAnyHeading_rad);
+  return std::min(std::hypot(heading_error_rad_, drift_rad_), kAnyHeading_rad);
 }
 
 Estimate Navigator::estimate() const {

@@ -112,8 +112,8 @@ class Navigator {
   SpeedSource source_ = SpeedSource::none;            ///< of the last step
   std::optional<std::int64_t> over_bottom_ns_;        ///< end of the last step by the velocity over the bottom
   std::optional<std::int64_t> heading_ns_, tilt_ns_;  ///< of the last reading that had one
-  bool heading_calibrated_ = false;
-  double drift_rad_ = 0;  ///< of the heading since then, one standard deviation
+  double heading_error_rad_ = 0;                      ///< of its heading, all along a leg
+  double drift_rad_ = 0;                              ///< of the heading since then, one standard deviation
   std::optional<Outage> outage_;
   std::uint64_t left_out_ = 0;
 };

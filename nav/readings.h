@@ -36,6 +36,7 @@ struct CompassReading {
   std::optional<double> roll_rad;     ///< positive starboard-down
   bool calibrated = false;            ///< the heading is that of a calibration
   bool tilt_lags = true;              ///< pitch and roll are those of a fluid (AttitudeOptions::tilt_lag_s)
+  double heading_std_rad = 0;         ///< of a heading that is not calibrated, where it is larger than Options say
 };
 
 struct ShaftReading {

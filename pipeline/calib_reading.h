@@ -13,6 +13,11 @@ namespace navcal::pipeline {
 /// levelled by its own tilt.
 [[nodiscard]] calib::CompassReading calib_reading(const instruments::CompassSample& compass,
                                                   const instruments::Stamp& stamp, double time_s);
+/// Whether the calibrators learn from a sample: it has a field or a magnetic heading. A true heading is most often
+/// an estimate by the same compass, and NMEA's lines of tilt or rate of turn alone are no readings of a heading.
+[[nodiscard]] inline bool is_reading_of_compass(const instruments::CompassSample& compass) {
+  return compass.field_body_uT || (compass.heading_rad && !compass.heading_is_true);
+}
 /// nullopt without rates.
 [[nodiscard]] std::optional<calib::RateReading> calib_reading(const instruments::ImuSample& imu,
                                                               const instruments::Stamp& stamp, double time_s);

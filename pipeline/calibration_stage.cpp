@@ -28,7 +28,9 @@ std::unique_ptr<CalibrationStage> CalibrationStage::make(const config::Settings&
 }
 
 CalibrationStage::CalibrationStage(const config::Settings& settings, const CalibratedPorts& ports)
-    : suite_(suite_options(settings, ports), ports.instruments()), ports_(ports) {}
+    : suite_(suite_options(settings, ports), ports.instruments()), ports_(ports) {
+  for (const auto& port : settings.ports) protocols_.push_back(port.protocol);
+}
 
 void CalibrationStage::use(const EarthFieldWatch& field) {
   suite_.set_local_field(local_field(field.field()));
@@ -40,12 +42,25 @@ double CalibrationStage::seconds(std::int64_t validity_ns) {
   return static_cast<double>(validity_ns - *origin_ns_) * 1e-9;
 }
 
-void CalibrationStage::correct(instruments::Sample& sample) const {
+std::optional<instruments::Sample> CalibrationStage::correct(instruments::Sample& sample) const {
   const auto& correction = suite_.in_force().correction();
   const auto name = suite_.in_force().name();
   sample.calibration = {name.number, name.sum};
   if (auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
-    if (sample.port != ports_.compass || compass->heading_is_true) return;
+    if (sample.port != ports_.compass) return {};
+    if (compass->heading_is_true) {
+      // Whether what is in force makes headings, by a reading that has all that it may take.
+      const calib::CompassReading any{
+          .heading_rad = 0, .pitch_rad = 0, .roll_rad = 0, .field_body_uT = Eigen::Vector3d::UnitX()};
+      if (protocols_.at(sample.port) != Protocol::mavlink || !calib::corrected_heading(correction, any)) return {};
+      instruments::Sample heading = sample;
+      heading.value =
+          instruments::ScalarSample{instruments::Text<24>("autopilot_heading"), instruments::Text<16>("rad"),
+                                    compass->heading_rad.value_or(NAN), compass->heading_std_rad};
+      compass->heading_rad = compass->heading_std_rad = std::nullopt;
+      compass->heading_is_true = false;
+      return heading;
+    }
     const bool fresh = motor_current_A_ && sample.stamp.validity_ns - motor_current_ns_ < kCurrentValid_ns;
     const auto reading = calib::without_motor_field(correction, calib_reading(*compass, sample.stamp, 0),
                                                     fresh ? motor_current_A_ : std::nullopt);
@@ -54,12 +69,13 @@ void CalibrationStage::correct(instruments::Sample& sample) const {
     sample.stamp.validity_ns -= delay_ns;
     sample.stamp.validity_utc_ns -= delay_ns;
   } else if (auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
-    if (sample.port != ports_.imu) return;
+    if (sample.port != ports_.imu) return {};
     if (correction.gyro && imu->rate_rad_s)
       imu->yaw_rate_calibrated_rad_s = (*correction.gyro)((*imu->rate_rad_s)[2]);
     if (correction.gyro_b && imu->yaw_rate_b_rad_s)
       imu->yaw_rate_b_calibrated_rad_s = (*correction.gyro_b)(*imu->yaw_rate_b_rad_s);
   }
+  return {};
 }
 
 void CalibrationStage::learn(const instruments::Sample& original, Sink& sink) {
@@ -73,9 +89,7 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
     if (const auto reference = reference_reading(compass, sample.stamp, seconds(sample.stamp.validity_ns)))
       suite_.put(*reference);
   }
-  // NMEA's lines of tilt or rate of turn alone are no readings of a heading.
-  if (!compass.heading_rad && !compass.field_body_uT && !compass.error) return;
-  if (sample.port == ports_.compass)
+  if (sample.port == ports_.compass && (is_reading_of_compass(compass) || compass.error))
     suite_.put(calib_reading(compass, sample.stamp, seconds(sample.stamp.validity_ns)));
 }
 

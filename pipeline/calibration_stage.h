@@ -23,8 +23,9 @@ class CalibrationStage {
   static std::unique_ptr<CalibrationStage> make(const config::Settings& settings);
   CalibrationStage(const config::Settings& settings, const CalibratedPorts& ports);
 
-  /// Puts what is in force on a sample.
-  void correct(instruments::Sample& sample) const;
+  /// Puts what is in force on a sample. The heading that an autopilot estimates by the same compass serves no more
+  /// then: it is taken off its sample, and returned as SENSOR autopilot_heading.
+  std::optional<instruments::Sample> correct(instruments::Sample& sample) const;
   /// Feeds it, as it was before. Tells the sink of what came into force by it.
   void learn(const instruments::Sample& original, Sink& sink);
   /// The operator's word; what cannot be done is said in words, and nothing is told to the sink then.
@@ -61,6 +62,7 @@ class CalibrationStage {
 
   calib::Suite suite_;
   CalibratedPorts ports_;
+  std::vector<protocols::Protocol> protocols_;  ///< of each port of the configuration
   std::optional<FieldPlace> field_place_;
   std::int64_t newest_ns_ = 0;             ///< arrival of the newest sample
   std::optional<std::int64_t> origin_ns_;  ///< of the seconds that the suite is told

@@ -100,7 +100,7 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
   if (const auto* compass = std::get_if<instruments::CompassSample>(&corrected.value)) {
     if (corrected.port != ports_[Role::heading]) return;
     const bool shows_tilt = compass->pitch_rad && compass->roll_rad && !compass->tilt_by_accelerometers;
-    if (compass->heading_rad) heading_was_true_ = compass->heading_is_true;
+    if (compass->heading_rad || compass->heading_calibrated_rad) heading_was_true_ = compass->heading_is_true;
     if (shows_tilt) inclinometer_ns_ = corrected.stamp.validity_ns;
     feed(calibrated_, corrected, *compass, true);
     feed(uncalibrated_, original, std::get<instruments::CompassSample>(original.value), false);
@@ -147,6 +147,7 @@ void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample&
   reading.time_ns = sample.stamp.validity_ns;
   reading.calibrated = calibrated && compass.heading_calibrated_rad;
   reading.heading_rad = reading.calibrated ? compass.heading_calibrated_rad : compass.heading_rad;
+  reading.heading_std_rad = compass.heading_std_rad.value_or(0);
   if (reading.heading_rad && !compass.heading_is_true) *reading.heading_rad += declination_rad_;
   if (!compass.tilt_by_accelerometers) {
     reading.pitch_rad = compass.pitch_rad;

@@ -40,10 +40,11 @@ void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, 
   }
   const instruments::Sample& original = filled ? *filled : sample;
   instruments::Sample corrected = original;
-  if (calibration_) calibration_->correct(corrected);
+  const auto replaced = calibration_ ? calibration_->correct(corrected) : std::nullopt;
   take_sources(corrected, sink);  // a field alone is no heading before it is calibrated
   take_field(corrected, sink);
   sink.on_sample(corrected);
+  if (replaced) sink.on_sample(*replaced);
   const auto placed = navigation_ ? navigation_->at_origin(corrected) : std::nullopt;
   if (navigation_) {
     navigation_->take(original, placed ? *placed : corrected, tilt_ ? tilt_->newest() : std::nullopt, mapping,

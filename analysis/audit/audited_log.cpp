@@ -95,6 +95,7 @@ class AuditSink final : public ReplaySink {
       OpenStream& open = streams_[{port, instruments::kKind<Value>.name}];
       if constexpr (std::is_same_v<Value, instruments::CompassSample>) {
         compare(open, {value.field_body_uT, {}}, time_s);
+        if (value.heading_rad && value.heading_is_true) log_.true_headings.insert(settings_.ports.at(port).name);
         if (value.heading_std_rad) {
           Series& stated = log_.heading_std_deg[settings_.ports.at(port).name];
           stated.time_s.push_back(time_s);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,7 +61,8 @@ struct AuditedLog {
   std::map<std::string, Series> heading_std_deg;
   std::array<AuditedCalibration, 2> halves;  ///< fitted to the first and to the second half only
   std::vector<std::string> remarks;
-  bool states_times = true;  ///< else the import has placed the bytes evenly
+  bool states_times = true;             ///< else the import has placed the bytes evenly
+  std::set<std::string> true_headings;  ///< ports whose headings are from true north
 
   [[nodiscard]] const RecordedChannel* find(std::string_view port, std::string_view quantity) const;
   /// value_at() of a channel; nullopt where there is none.

@@ -187,11 +187,11 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   errors.is_of_other_half = halves[0] != nullptr && halves[1] != nullptr;
   errors.is_accepted = errors.is_of_other_half || accepted_field(log.whole.report) != nullptr;
   if (!errors.is_of_other_half) halves = {whole, whole};
-  // A device of the compass states magnetic north; the autopilot states true north.
-  const bool is_own = heading.port == log.compass;
+  // A device of the compass states magnetic north, but for its filter; the autopilot states true north.
+  const bool is_magnetic = heading.port == log.compass && !log.true_headings.contains(heading.port);
   errors.is_absolute =
-      is_own || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
-  const double declination_rad = is_own || !log.earth ? 0 : log.earth->declination_rad;
+      is_magnetic || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
+  const double declination_rad = is_magnetic || !log.earth ? 0 : log.earth->declination_rad;
   const auto own = log.heading_std_deg.find(heading.port);
   double squares = 0, count = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

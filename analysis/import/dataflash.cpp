@@ -276,8 +276,9 @@ void DataFlashFile::take_attitude(const Plan& plan, std::string_view record, Imp
   line.number("heading_rad", base::as_heading(field(plan, record, 2).value_or(NAN)));
   line.boolean("heading_is_true", true);
   // XKV1 is of the third estimator; the attitude is that of the active one.
-  if (constexpr double kThird = 3; field(plan, record, 3).value_or(0) == kThird)
-    line.number("heading_std_rad", heading_std_rad_);
+  constexpr double kThird = 3;
+  const auto stated_rad = field(plan, record, 3).value_or(0) == kThird ? heading_std_rad_ : std::nullopt;
+  line.number("heading_std_rad", stated_rad.value_or(instruments::kAutopilotHeadingStd_rad));
   line.number("pitch_rad", field(plan, record, 1)).number("roll_rad", field(plan, record, 0));
   sink_.sample(sample, line);
 }

@@ -50,7 +50,10 @@ std::string Arrivals::came() const {
   std::string served;
   const nlohmann::json sources = health_.value("sources", nlohmann::json::object());
   for (const auto& [role, device] : sources.items()) {
-    if (device == port_) served += (served.empty() ? "" : ", ") + role;
+    if (device != port_) continue;
+    served += (served.empty() ? "" : ", ") + role;
+    if (role == "heading" && text(health_, "heading_source") == "autopilot")
+      served += " (the autopilot's own until a calibration is in force)";
   }
   if (!served.empty()) out += "  serves " + served + "\n";
   const nlohmann::json utc = health_.value("utc", nlohmann::json::object());

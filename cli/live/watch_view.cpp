@@ -94,7 +94,9 @@ void WatchView::take(std::string_view line) {
   } else if (kind == "TPV" && text(report, "device") == "navigation") {
     return;  // NAV shows more
   } else if (!kind.empty()) {
-    last_[kind][text(report, "device")] = report;
+    Json& last = last_[kind][text(report, "device")];
+    if (kind != "ATT") last = Json::object();  // heading, field and rates of one device may come apart
+    last.update(report);
   }
 }
 
@@ -174,9 +176,10 @@ void WatchView::append_attitude(std::string& out) const {
   if (found == last_.end()) return;
   for (const auto& [device, att] : found->second) {
     if (att.contains("heading")) {
-      const auto north = text(att, "north");
+      std::string words = text(att, "north");
+      if (const std::string source = text(att, "heading_source"); !source.empty()) words += " by " + source;
       base::append_format(out, "{:<12}heading {} deg{}{}, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
-                          shown(number(att, "heading"), 1), north.empty() ? "" : " ", north,
+                          shown(number(att, "heading"), 1), words.empty() ? "" : " ", words,
                           shown(number(att, "pitch"), 1), shown(number(att, "roll"), 1),
                           shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
     }

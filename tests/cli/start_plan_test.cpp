@@ -80,6 +80,15 @@ TEST(StartPlan, OptionsOfAnotherKindAreRefused) {
   }
 }
 
+TEST(Arrivals, AHeadingThatTheAutopilotEstimatesIsCalledSo) {
+  Arrivals arrivals("rov");
+  arrivals.take(R"({"class":"HEALTH","sources":{"heading":"rov","rates":"rov"},)"
+                R"("heading_source":"autopilot","ports":[{"device":"rov","state":"running"}]})");
+  EXPECT_NE(arrivals.came().find("serves heading (the autopilot's own until a calibration is in force), rates\n"),
+            std::string::npos)
+      << arrivals.came();
+}
+
 TEST(Arrivals, RatesStampsAndWhatIsMissing) {
   Arrivals arrivals("rov");
   const std::vector<ExpectedQuantity> expected{{"rates", "Ask."}, {"depth", "Dive."}};

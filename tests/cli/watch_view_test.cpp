@@ -45,6 +45,19 @@ TEST(WatchView, AReportOnAChangeDoesNotDistortTheRate) {
   EXPECT_TRUE(page_has(view.line(), "imu running 20.0/s")) << view.line();
 }
 
+TEST(WatchView, TheHeadingOfADeviceStaysWhileItsOtherReportsCome) {
+  WatchView view;
+  const std::string begin = R"({"class":"ATT","device":"rov",)";
+  view.take(begin + R"("heading":93.4,"north":"true","heading_source":"autopilot","pitch":1,"roll":2})");
+  view.take(begin + R"("mag_len":50.25})");
+  view.take(begin + R"("gyro_z":0.5})");
+  EXPECT_TRUE(page_has(view.page(Colour::none), "heading 93.4 deg true by autopilot, pitch 1.0"))
+      << view.page(Colour::none);
+  EXPECT_TRUE(page_has(view.page(Colour::none), "field 50.25 uT"));
+  view.take(begin + R"("heading":95.5,"north":"true","heading_source":"calibration"})");
+  EXPECT_TRUE(page_has(view.page(Colour::none), "heading 95.5 deg true by calibration"));
+}
+
 TEST(WatchView, TellsAReckonedPositionFromOneByFixes) {
   WatchView view;
   const std::string begin = R"({"class":"NAV","device":"navigation","position":)";

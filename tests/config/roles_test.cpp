@@ -43,6 +43,11 @@ TEST(ConfigRoles, APortThatCannotDeliverSaysWhy) {
             Problems{"--set: roles.depth: port compass is of protocol tcm2, which has no depth"});
 }
 
+TEST(ConfigRoles, AnAutopilotIsNoReferenceOfItsOwnCompass) {
+  EXPECT_TRUE(can_deliver(protocols::Protocol::mavlink, Role::heading));
+  EXPECT_FALSE(can_deliver(protocols::Protocol::mavlink, Role::heading_reference));
+}
+
 TEST(ConfigRoles, AnUnknownRoleIsFound) {
   EXPECT_EQ(problems_with("headin = \"compass\"\n"),
             Problems{"t.toml:2: roles.headin: unknown key; did you mean heading?"});

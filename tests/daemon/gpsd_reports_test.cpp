@@ -150,6 +150,22 @@ TEST(GpsdReports, DeclinationMakesTrueNorthOfMagneticHeadingsOnly) {
   EXPECT_NEAR(json::parse(att(compass, -10 * kRadians))["heading"].get<double>(), 5, 1e-4);
 }
 
+TEST(GpsdReports, TheHeadingBehindAnAutopilotNamesItsSource) {
+  const auto source_of = [](const CompassSample& compass, bool is_autopilot) {
+    std::string out;
+    append_att(out, compass, {}, Stamp{}, {"rov", true, {}, is_autopilot});
+    return json::parse(out).value("heading_source", "");
+  };
+  CompassSample attitude, field;
+  attitude.heading_rad = 1;
+  attitude.heading_is_true = true;
+  field.heading_calibrated_rad = 1;
+  EXPECT_EQ(source_of(attitude, true), "autopilot");
+  EXPECT_EQ(source_of(field, true), "calibration");
+  EXPECT_EQ(source_of(CompassSample{}, true), "") << "no heading";
+  EXPECT_EQ(source_of(attitude, false), "");
+}
+
 TEST(GpsdReports, TwoDecimalsOfAFieldComeBackDigitByDigit) {
   for (int hundredths = -7000; hundredths <= 7000; ++hundredths) {
     CompassSample compass;

@@ -93,5 +93,33 @@ TEST(StateCollector, DepthIsThatOfTheOriginAlsoWithoutAnEstimate) {
   EXPECT_NEAR(collector.at(0).depth_m.value(), 1.7, 1e-12) << "asking does not change it";
 }
 
+TEST(StateCollector, TheHeadingStaysWhileTheFieldOfTheSameDeviceComes) {
+  config::Settings settings;
+  settings.calibration.enabled = settings.navigation.enabled = false;
+  settings.ports.emplace_back().protocol = protocols::Protocol::mavlink;
+  const pipeline::Pipeline pipeline(settings);
+  StateCollector collector(settings, pipeline);
+  instruments::Sample sample;
+  instruments::CompassSample attitude, field;
+  attitude.heading_rad = 1;
+  attitude.heading_is_true = true;
+  field.field_body_uT = instruments::Vector3{20, 0, 40};
+  EXPECT_EQ(collector.heading_source(), "");
+  for (const auto& compass : {field, attitude, field}) {
+    sample.value = compass;
+    collector.take(sample);
+  }
+  EXPECT_EQ(collector.at(0).heading_rad, 1);
+  EXPECT_EQ(collector.heading_source(), "autopilot");
+  EXPECT_TRUE(collector.at(0).is_north_true);
+  EXPECT_FALSE(collector.is_serving_compass(sample)) << "a field alone is no heading";
+  field.heading_calibrated_rad = 2;
+  sample.value = field;
+  collector.take(sample);
+  EXPECT_TRUE(collector.is_serving_compass(sample));
+  EXPECT_EQ(collector.at(0).heading_rad, 2);
+  EXPECT_EQ(collector.heading_source(), "calibration");
+}
+
 }  // namespace
 }  // namespace navcal::daemon

@@ -111,14 +111,25 @@ TEST_F(MavlinkVehicle, IsReadAskedAndStampedByItsOwnClock) {
 
   // Samples: the reading of tick i has the rate of i mrad/s.
   double stamp_s = 0, stamp_s2 = 0, arrival_s = 0, arrival_s2 = 0;
-  int readings = 0, within = 0;
+  int readings = 0, within = 0, headings = 0, calibrated = 0, estimates = 0;
   std::map<std::string, std::size_t> kinds;
   const std::size_t ticks = truth["times"].size();
   for (const json& sample : samples) {
+    if (sample.value("class", "") == "NAV" && !sample["heading_rad"].is_null()) {
+      ++estimates;
+      EXPECT_GE(sample["heading_std_rad"], 0.17) << "no less than the autopilot's heading states";
+    }
     if (sample.value("device", "") != "rov") continue;
     ++kinds[sample["class"]];
     if (sample.contains("field_body_uT") && !sample["field_body_uT"].is_null()) {
       EXPECT_GE(sample["field_body_uT"][0], 24.99) << "the calibration of the autopilot was not undone";
+    }
+    if (sample["class"] == "COMPASS" && !sample["heading_calibrated_rad"].is_null()) ++calibrated;
+    if (sample["class"] == "COMPASS" && !sample["heading_rad"].is_null()) {
+      ++headings;
+      EXPECT_NEAR(sample["heading_rad"], 1.5, 1e-6);
+      EXPECT_EQ(sample["heading_is_true"], true);
+      EXPECT_NEAR(sample["heading_std_rad"], 0.1745, 1e-4);
     }
     if (sample["class"] != "IMU") continue;
     const auto tick = static_cast<std::size_t>(std::lround(sample["rate_rad_s"][0].get<double>() * 1e3));
@@ -136,6 +147,9 @@ TEST_F(MavlinkVehicle, IsReadAskedAndStampedByItsOwnClock) {
   EXPECT_EQ(kinds["IMU"], ticks);
   EXPECT_GE(kinds["COMPASS"], ticks * 65 / 100)
       << "the tilt, and the field when it changes and its calibration is known";
+  EXPECT_EQ(calibrated, 0) << "it has not turned";
+  EXPECT_EQ(headings, truth["sent"]["30"]) << "so that the autopilot's own heading serves all the time";
+  EXPECT_GT(estimates, 10) << "one a second";
   EXPECT_EQ(kinds["DEPTH"], ticks / 5);
   EXPECT_EQ(kinds["ALTIMETER"], ticks / 5);
   ASSERT_GT(readings, 100);

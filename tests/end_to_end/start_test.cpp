@@ -94,6 +94,7 @@ TEST(Start, ABlueRov2IsListenedTo) {
   EXPECT_NEAR(start.rate_of("IMU"), 50, 10) << start.said();
   EXPECT_NEAR(start.rate_of("DEPTH"), 10, 2) << start.said();
   EXPECT_GT(start.rate_of("COMPASS"), 0) << start.said();
+  EXPECT_TRUE(start.says("heading (the autopilot's own until a calibration is in force)")) << start.said();
   EXPECT_FALSE(start.says("arrives. ")) << start.said();
   std::smatch page;
   const std::string said = start.said();

@@ -133,14 +133,15 @@ TEST_F(Vehicle, TheFieldHasTheTiltOfTheAttitudeWhileThatIsNew) {
   raw_imu(1'200'000, 210);
   const auto compass = collector.all<CompassSample>();
   ASSERT_EQ(compass.size(), 3U);
-  EXPECT_FALSE(compass[0].heading_rad) << "of the autopilot's estimate the tilt alone";
+  EXPECT_EQ(compass[0].heading_rad, 1.5) << "the autopilot's own";
+  EXPECT_TRUE(compass[0].heading_is_true);
+  EXPECT_NEAR(compass[0].heading_std_rad.value_or(0), 10 * 3.14159265358979 / 180, 1e-9);
+  EXPECT_FALSE(compass[1].heading_rad) << "of the attitude a field gets the tilt alone";
+  EXPECT_FALSE(compass[1].heading_is_true || compass[1].heading_std_rad);
   EXPECT_EQ(compass[0].pitch_rad, -0.25);
   EXPECT_EQ(compass[1].roll_rad, 0.125);
   EXPECT_NEAR((*compass[1].field_body_uT)[0], 20, 1e-12);
   EXPECT_FALSE(compass[2].roll_rad);
-  ASSERT_EQ(collector.all<ScalarSample>().size(), 1U);
-  EXPECT_EQ(collector.all<ScalarSample>()[0].quantity.view(), "autopilot_heading");
-  EXPECT_EQ(collector.all<ScalarSample>()[0].value, 1.5);
 }
 
 TEST_F(Vehicle, CountersOfThirtyTwoBitsGoOn) {

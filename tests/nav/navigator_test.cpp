@@ -163,6 +163,33 @@ TEST(Navigator, APropellerThatTurnsBackwardsGivesNothing) {
   EXPECT_EQ(navigator.estimate().speed_m_s, 0);
 }
 
+// An autopilot sends the tilt twenty times a second, and the field, from which the heading is made, sixty
+// milliseconds late.
+TEST(Navigator, ATiltMakesNoHeadingOldThatWasMeasuredBeforeIt) {
+  Navigator navigator({});
+  for (std::int64_t i = 0; i < 400; ++i) {
+    const std::int64_t t_ns = kStart_ns + i * (kSecond_ns / 20);
+    navigator.take(RateReading{t_ns, Eigen::Vector3d::Zero(), 0});
+    navigator.take(CompassReading{t_ns, std::nullopt, 0.0, 0.1, false, false});
+    if (i % 2 == 1) navigator.take(CompassReading{t_ns - 60'000'000, 1.0, 0.0, 0.3, true, false});
+  }
+  EXPECT_NEAR(navigator.estimate().heading_rad.value_or(9), 1, 1e-6);
+  EXPECT_NEAR(navigator.estimate().heading_std_rad, 0.0175, 0.001);
+  EXPECT_NEAR(navigator.estimate().roll_rad.value_or(9), 0.1, 0.01) << "an older tilt is left out";
+}
+
+TEST(Navigator, AHeadingIsNoBetterThanItsDeviceStates) {
+  for (const auto& [device_rad, stated_rad] :
+       {std::pair(0.17, 0.17), std::pair(0.01, 5 * std::numbers::pi / 180)}) {
+    Navigator navigator({});
+    navigator.take(RateReading{kStart_ns, Eigen::Vector3d::Zero(), 0});
+    navigator.take(CompassReading{kStart_ns, 1.0, 0.0, 0.0, false, false, device_rad});
+    EXPECT_NEAR(navigator.estimate().heading_std_rad, stated_rad, 1e-6);
+    navigator.take(CompassReading{kStart_ns + kSecond_ns, 1.0, 0.0, 0.0, true, false, device_rad});
+    EXPECT_NEAR(navigator.estimate().heading_std_rad, std::numbers::pi / 180, 1e-3) << "calibrated";
+  }
+}
+
 TEST(Navigator, TheSameReadingsGiveTheSameBits) {
   const auto way = reference_way("path5");
   const auto readings = readings_along(way, 50, {});

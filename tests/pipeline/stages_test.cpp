@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -29,7 +31,7 @@ config::Settings two_compasses_and_a_receiver() {
 }
 
 struct Events : Sink {
-  void on_sample(const instruments::Sample&) override {}
+  void on_sample(const instruments::Sample& sample) override { newest_of[sample.value.index()] = sample; }
   void on_stream_event(const StreamEvent& event) override {
     events.push_back(std::string(event.name) + ": " + event.message);
   }
@@ -38,6 +40,7 @@ struct Events : Sink {
   std::vector<std::string> events;
   std::vector<EarthField> fields;
   NavigationSample newest;
+  std::map<std::size_t, instruments::Sample> newest_of;  ///< by kind
 };
 
 class StagesTest : public testing::Test {
@@ -136,6 +139,88 @@ TEST_F(StagesTest, AConfiguredDeclinationIsNotReplacedByARestoredOne) {
   ASSERT_TRUE(other.restore_calibration(state));
   EXPECT_EQ(other.earth_field().declination_rad, 0.2);
   EXPECT_EQ(other.earth_field().size_uT, 50);
+}
+
+/// A level vehicle behind an autopilot turns at 0.2 rad/s, whose own heading is off by 0.1 rad.
+class AutopilotStagesTest : public StagesTest {
+ protected:
+  static config::Settings autopilot() {
+    config::Settings settings;
+    settings.ports.emplace_back().name = "rov";
+    settings.ports.back().protocol = Protocol::mavlink;
+    settings.environment.declination_rad = 0.3;
+    settings.calibration.automatic = false;
+    return settings;
+  }
+  void turn(int seconds, bool has_attitude = true) {
+    for (const std::int64_t end_ms = now_ms_ + 1000 * seconds; now_ms_ < end_ms; now_ms_ += 50) {
+      const double magnetic_rad = 0.2e-3 * static_cast<double>(now_ms_);
+      true_rad_ = base::positive_angle(magnetic_rad + 0.3);
+      instruments::ImuSample imu;
+      imu.rate_rad_s = instruments::Vector3{0, 0, 0.2};
+      put(imu);
+      instruments::CompassSample attitude, field;
+      attitude.roll_rad = attitude.pitch_rad = field.roll_rad = field.pitch_rad = 0;
+      attitude.heading_rad = base::positive_angle(true_rad_ + 0.1);
+      attitude.heading_is_true = true;
+      attitude.heading_std_rad = 0.17;
+      if (has_attitude) put(attitude);
+      field.field_body_uT =
+          instruments::Vector3{20 * std::cos(magnetic_rad) + 3, -20 * std::sin(magnetic_rad) - 2, 40};
+      if (now_ms_ % 100 == 0) put(field);
+    }
+  }
+  void put(const decltype(instruments::Sample::value)& value) {
+    instruments::Sample sample;
+    sample.stamp.arrival_ns = sample.stamp.validity_ns = now_ms_ * base::kMillisecond_ns;
+    sample.value = value;
+    stages_.take(sample, mapping_, told_);
+  }
+  [[nodiscard]] nav::Estimate estimate() const { return stages_.navigation(mapping_).value().estimate; }
+  [[nodiscard]] double heading_error_rad() const {
+    return base::wrapped(estimate().heading_rad.value_or(9) - true_rad_);
+  }
+  Stages stages_{autopilot()};
+  std::int64_t now_ms_ = 1000;
+  double true_rad_ = 0;
+};
+
+TEST_F(AutopilotStagesTest, ItsHeadingServesUntilThatOfACalibrationIsInForce) {
+  turn(2);
+  EXPECT_EQ(stages_.sources().delivering()[Role::heading], 0);
+  EXPECT_NEAR(heading_error_rad(), 0.1, 0.03) << "from the first second on";
+  EXPECT_NEAR(estimate().heading_std_rad, 0.17, 0.01) << "as it is stated";
+  turn(120);
+  ASSERT_EQ(stages_.calibration()->order(CalibrationOrder::force, calib::Calibrator::magnetometer, 0, told_), "");
+  turn(60);
+  EXPECT_NEAR(heading_error_rad(), 0, 0.02) << "nothing of the autopilot's is mixed in";
+  EXPECT_LT(estimate().heading_std_rad, 0.03);
+  const auto& own = std::get<instruments::ScalarSample>(told_.newest_of.at(9).value);
+  EXPECT_EQ(own.quantity.view(), "autopilot_heading");
+  EXPECT_NEAR(base::wrapped(own.value - true_rad_), 0.1, 0.02);
+  EXPECT_EQ(own.value_std, 0.17);
+  const auto& attitude = std::get<instruments::CompassSample>(told_.newest_of.at(0).value);
+  EXPECT_FALSE(attitude.heading_rad || attitude.heading_std_rad || attitude.heading_is_true);
+  EXPECT_EQ(attitude.roll_rad, 0);
+}
+
+TEST_F(AutopilotStagesTest, NoCalibratorLearnsFromIt) {
+  turn(120);
+  const auto report = stages_.calibration()->report();
+  stages_ = Stages(autopilot());
+  now_ms_ = 1000;
+  turn(120, false);
+  const auto expected = stages_.calibration()->report();
+  ASSERT_EQ(report.calibrators.size(), expected.calibrators.size());
+  for (std::size_t i = 0; i < report.calibrators.size(); ++i) {
+    const auto &with = report.calibrators[i], &one = expected.calibrators[i];
+    EXPECT_EQ(with.judgement.samples, one.judgement.samples) << i;
+    ASSERT_EQ(with.estimate.size(), one.estimate.size());
+    for (std::size_t k = 0; k < with.estimate.size(); ++k) {
+      const double value = with.estimate[k].value, other = one.estimate[k].value;
+      EXPECT_TRUE(value == other || (std::isnan(value) && std::isnan(other))) << with.estimate[k].name;
+    }
+  }
 }
 
 }  // namespace

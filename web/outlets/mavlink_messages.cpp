@@ -49,6 +49,7 @@ void MavlinkMessages::take(const Record& record, Pacer::Clock::time_point now) {
   if (record.topic == "/health") {
     const std::string source = text_in(member_of(message, "earth_field"), "declination_source");
     if (!source.empty()) knows_north_ = source != "none";
+    is_own_heading_ = text_in(message, "heading_source") == "autopilot";
   } else if (record.topic == "/event" && options_.has_texts) {
     const std::string severity = text_in(message, "severity");
     send_text(severity == "alarm"     ? 2
@@ -72,6 +73,8 @@ void MavlinkMessages::take_estimate(const json& nav, std::optional<std::int64_t>
     missing_ = "the declination is not known";
   else if (options_.odometry_Hz > 0 && (lacks("heading_rad") || lacks("pitch_rad") || lacks("roll_rad")))
     missing_ = "heading, pitch or roll is not known";
+  else if (options_.odometry_Hz > 0 && is_own_heading_)
+    missing_ = "the heading is the autopilot's own";
   else if (options_.odometry_Hz > 0 && (lacks("depth_m") || !velocity_of(nav)))
     missing_ = "depth or velocity is not known";
   if (!utc_ns) return;
@@ -148,7 +151,7 @@ void MavlinkMessages::send_gps(const json& nav, std::int64_t utc_ns) {
   const auto velocity = velocity_of(nav);
   const auto v = velocity.value_or(Eigen::Vector3d::Zero());
   const double level_std_m = std::hypot(of(nav, "north_std_m"), of(nav, "east_std_m"));
-  const auto heading_rad = knows_north_ ? number_in(nav, "heading_rad") : std::nullopt;
+  const auto heading_rad = knows_north_ && !is_own_heading_ ? number_in(nav, "heading_rad") : std::nullopt;
   unsigned ignored = kNoAltitude | kNoHdop | kNoVdop | kNoSpeedError | kNoHeightError;
   if (!velocity) ignored |= kNoVelocity;
   if (!std::isfinite(level_std_m)) ignored |= kNoLevelError;

@@ -44,6 +44,7 @@ class MavlinkMessages {
   std::optional<ClockMapping> mapping_;
   std::optional<base::LocalPlane> origin_;  ///< of ODOMETRY: the first position
   bool knows_north_ = false, is_often_ = false;
+  bool is_own_heading_ = false;   ///< estimated by the autopilot, which does not get it back as a measurement
   int estimates_ = 0, sent_ = 0;  ///< since the last tick
   std::string missing_ = "no estimate comes from navcald", problem_, calibration_;
   std::uint8_t resets_ = 0;

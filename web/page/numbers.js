@@ -18,10 +18,13 @@ export class Numbers {
 
   // Heading, radians, with where it comes from, and the estimator's error. The compass speaks more often than the estimator.
   heading() {
-    const compass = this.store.best('/compass', 'heading');
+    const newest = this.store.best('/compass', 'heading');
     const navigation = this.store.record('/nav')?.message;
-    const m = compass?.message;
-    if (m && (m.heading_calibrated_rad ?? m.heading_rad) != null) {
+    const hasHeading = (record) => (record?.message.heading_calibrated_rad ?? record?.message.heading_rad) != null;
+    // One device may send heading and field apart: its newest record with a heading counts for a second.
+    if (hasHeading(newest) || newest == null || newest.device !== this.compass?.device || newest.at - this.compass.at > 1000) this.compass = newest;
+    const compass = this.compass, m = compass?.message;
+    if (hasHeading(compass)) {
       return {rad: m.heading_calibrated_rad ?? m.heading_rad, std: navigation?.heading_std_rad, from: compass.device, isTrue: m.heading_is_true === true, record: compass};
     }
     if (navigation?.heading_rad != null) return {rad: navigation.heading_rad, std: navigation.heading_std_rad, from: 'estimator', isTrue: this.store.record('/health')?.message.earth_field?.declination != null, record: this.store.record('/nav')};
@@ -47,7 +50,8 @@ export class Numbers {
     const noError = heading?.std == null ? `, error absent: ${navigation ? 'the estimator has none yet' : NO_NAVIGATION}` : '';
     write($('heading-north'), heading ? (heading.isTrue ? 'true' : 'magnetic') + noError : '');
     const m = heading?.record.topic === '/compass' ? heading.record.message : null;
-    list.set('from', heading?.from ?? null, heading ? (m?.calibration ? `calibration ${m.calibration}` : 'no calibration in force') : 'no compass delivers a heading');
+    const from = this.store.record('/health')?.message.heading_source === 'autopilot' ? "the autopilot's own heading" : m?.calibration ? `calibration ${m.calibration}` : 'no calibration in force';
+    list.set('from', heading?.from ?? null, heading ? from : 'no compass delivers a heading');
     const imu = this.store.best('/imu', 'rates')?.message;
     const rate = imu?.yaw_rate_calibrated_rad_s ?? imu?.rate_rad_s?.[2] ?? m?.turn_rate_rad_s ?? null;
     list.set('rate of turn', number(degrees(rate), '\u00b0/s', 1), rate == null ? 'no gyro delivers' : '');

@@ -544,6 +544,20 @@ TEST(Audit, TheErrorThatAHeadingStatesIsShownBesideItsOwn) {
   EXPECT_FALSE(find(compass_findings(log), "compass.heading")->stated) << "a constant is of the configuration";
 }
 
+TEST(Audit, ATrueHeadingOfTheCompassOwnPortIsComparedWithTrueNorth) {
+  AuditedLog log = with_magnetometer(true, 0, 0.005);
+  log.begin_utc_ns = 0;
+  std::vector<double> headings;
+  for (int i = 0; i < 1000; ++i)
+    headings.push_back(base::positive_angle(0.05 * i + 0.2 + 0.05 * std::sin(i)) / kRadians);
+  log.channels.push_back(channel(log.compass, "heading", headings, 0.1));
+  log.earth.emplace().declination_source = pipeline::EarthField::Source::model;
+  log.earth->declination_rad = 0.2;
+  EXPECT_GT(*find(compass_findings(log), "compass.heading")->value, 10) << "as a magnetic one";
+  log.true_headings.insert(log.compass);
+  EXPECT_LT(*find(compass_findings(log), "compass.heading")->value, 3);
+}
+
 TEST(Audit, ACompassWithoutAFieldTellsNoStep) {
   AuditedLog log;
   log.compass = "compass";

@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include "config/load.h"
 #include "instruments/autopilot_compass.h"
+#include "instruments/sample_fields.h"
 #include "protocols/crc16.h"
+#include "protocols/mavlink.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
 #include "tests/analysis/import/without_channels.h"
+#include "tests/instruments/collector.h"
 
 namespace navcal::analysis {
 namespace {
@@ -113,6 +117,8 @@ TEST(MavlinkLog, ReadsEachMessageInUnitsOfNavcal) {
     ASSERT_EQ(attitude.size(), 1U) << "of the first vehicle";
     EXPECT_NEAR(attitude[0].line["heading_rad"].get<double>(), 2 * 3.14159265358979 - 1.5, 1e-9);
     EXPECT_EQ(attitude[0].line["pitch_rad"], 0.125);
+    EXPECT_EQ(attitude[0].line["heading_is_true"], true);
+    EXPECT_NEAR(attitude[0].line["heading_std_rad"].get<double>(), 10 * 3.14159265358979 / 180, 1e-9);
     EXPECT_EQ(sink.of_port("baro2").at(0).line["pressure_Pa"], 135'000);
     EXPECT_NEAR(sink.of_port("battery").at(0).line["voltage_V"].get<double>(), 15.5, 1e-12);
     EXPECT_NEAR(sink.of_port("battery").at(0).line["current_A"].get<double>(), 2.25, 1e-12);
@@ -143,6 +149,48 @@ TEST(MavlinkLog, TheCalibrationOfTheAutopilotIsUndoneFromTheFirstFieldOn) {
   const auto of_kept = read_mavlink_log(log, kept, none, false);
   expect_vector(kept.of_port("compass2").at(0).line["field_body_uT"], 20, -5, 43);
   EXPECT_TRUE(of_kept.has_corrected_fields);
+}
+
+/// Compares the members that both have as numbers; those of a fix in degrees are left.
+template <class S>
+void expect_same(const S& live, const nlohmann::json& line) {
+  EXPECT_EQ(line["class"], instruments::kKind<S>.class_name);
+  instruments::for_each_field<S>([&](const auto& field) {
+    const auto* const member = instruments::member_of(live, field);
+    if (member == nullptr || field.quantity.form == instruments::Form::degrees) return;
+    using T = std::remove_cvref_t<decltype(*member)>;
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+      EXPECT_EQ(line.contains(field.key), member->has_value()) << field.key;
+      if (*member) {
+        EXPECT_NEAR(line[field.key].template get<double>(), **member, 1e-9) << field.key;
+      }
+    } else if constexpr (std::is_same_v<T, std::optional<instruments::Vector3>>) {
+      ASSERT_EQ(line.contains(field.key), member->has_value()) << field.key;
+      if (*member) expect_vector(line[field.key], (**member)[0], (**member)[1], (**member)[2]);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      EXPECT_EQ(line.value(field.key, false), *member) << field.key;
+    }
+  });
+}
+
+TEST(MavlinkLog, TheSamplesAreThoseOfALivePort) {
+  std::string parameters, log = small_tlog(true);
+  for (std::string name : instruments::AutopilotCompass::names(1)) {
+    const float value = name.find("DIA") != std::string::npos ? 1.0F : 0.0F;
+    name.resize(16);
+    parameters += entry(kStart_us, 22, payload_of(value, std::uint16_t{900}, std::uint16_t{65535}) + name + '\x09',
+                        220, true);
+  }
+  log = vehicle() + parameters + log;
+  RecordingSink sink;
+  (void)read_mavlink_log(log, sink);
+  auto settings = config::default_port("rov", protocols::Protocol::mavlink, 4'000'000);
+  settings.inertial_unit = 2;
+  instruments::Collector live(settings);
+  live.feed<protocols::mavlink::Parser>(log);  // the times between the frames are none
+  ASSERT_EQ(live.measurements.size(), sink.samples.size());
+  for (std::size_t i = 0; i < sink.samples.size(); ++i)
+    std::visit([&](const auto& value) { expect_same(value, sink.samples[i].line); }, live.measurements[i].value);
 }
 
 // Bytes that pymavlink's CRC gives for the heartbeat of the MAVLink guide: X.25 of "123456789" is 0x6F91 before

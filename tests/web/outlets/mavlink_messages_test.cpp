@@ -70,6 +70,11 @@ TEST_F(MavlinkFromRecords, NoPositionWithoutAllOfIt) {
     nav[key] = kept;
     EXPECT_TRUE(goes_out()) << key;
   }
+  say("/health", {{"heading_source", "autopilot"}});
+  EXPECT_FALSE(goes_out());
+  EXPECT_EQ(messages.problem(), "the heading is the autopilot's own");
+  say("/health", {{"heading_source", "calibration"}});
+  EXPECT_TRUE(goes_out());
   utc_ns.reset();
   EXPECT_FALSE(goes_out());
   EXPECT_EQ(messages.problem(), "UTC is not known");
@@ -123,6 +128,11 @@ TEST_F(GpsFromRecords, NorthIsAFullTurnAndNoYawIsZero) {
   north_is_known();
   estimates(1);
   EXPECT_EQ(last(kGpsInput).at<std::uint16_t>(63), 36'000);
+  say("/health", {{"heading_source", "autopilot"}});
+  estimates(1);
+  EXPECT_EQ(last(kGpsInput).at<std::uint16_t>(63), 0) << "it does not get back what it has estimated";
+  say("/health", {{"heading_source", "calibration"}});
+  estimates(1);
   EXPECT_EQ(last(kGpsInput).at<float>(48), 5.0F);
   EXPECT_EQ(last(kGpsInput).at<std::int32_t>(16), 1'799'999'000);
   EXPECT_EQ(messages.problem(), "");
