@@ -88,17 +88,17 @@ namespace {
 
 /// Leaves out the consequences of what is wrong with rates, forces or axes: they have one cause.
 void leave_out_consequences(std::vector<Finding>& findings) {
-  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also) {
+  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also = {}) {
     const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
       return (finding.certainty <= Certainty::likely || finding.name == "sampling.times") && is_cause(finding);
     });
     if (found == findings.end()) return;
     const std::string why = fmt::format("{}: {}", words, found->sentence), todo = found->todo;
     for (Finding& finding : findings) {
-      for (const std::string_view name : {std::string_view("gyro.bias"), std::string_view("gyro.scale"),
-                                          std::string_view("compass.step"), std::string_view("compass.motor"),
-                                          std::string_view("compass.iron"), std::string_view("delay."), also}) {
-        if (finding.name.starts_with(name))
+      for (const std::string_view name :
+           std::initializer_list<std::string_view>{"gyro.bias", "gyro.scale", "compass.step", "compass.motor",
+                                                   "compass.iron", "compass.heading", "delay.", also}) {
+        if (!name.empty() && finding.name.starts_with(name))
           finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, todo);
       }
     }
@@ -111,12 +111,10 @@ void leave_out_consequences(std::vector<Finding>& findings) {
       "compass.axes");
   leave_out(
       "The times are not known", [](const Finding& of) { return of.name == "sampling.times"; }, "force.vibration");
-  leave_out(
-      "The axes of the field are not what they should be",
-      [](const Finding& of) { return of.name == "compass.axes"; }, "compass.heading");
-  leave_out(
-      "The forces that tell the tilt are disturbed",
-      [](const Finding& of) { return of.name.starts_with("force."); }, "compass.heading");
+  leave_out("The axes of the field are not what they should be",
+            [](const Finding& of) { return of.name == "compass.axes"; });
+  leave_out("The forces that tell the tilt are disturbed",
+            [](const Finding& of) { return of.name.starts_with("force."); });
 }
 
 /// One quantity in two ways. Where they agree, the first says it. Where not, one of them is wrong: what the first,

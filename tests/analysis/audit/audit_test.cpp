@@ -558,6 +558,21 @@ TEST(Audit, ATrueHeadingOfTheCompassOwnPortIsComparedWithTrueNorth) {
   EXPECT_LT(*find(compass_findings(log), "compass.heading")->value, 3);
 }
 
+TEST(Audit, AHeadingIsNotJudgedWhereTheRatesAreWrong) {
+  AuditedLog log = with_magnetometer(false, 0, 0.005);
+  std::vector<double> headings;
+  for (int i = 0; i < 1000; ++i) headings.push_back(std::remainder(0.05 * i / kRadians + 9, 360.0));
+  log.channels.push_back(channel("attitude", "heading", headings, 0.1));
+  log.earth.emplace().declination_source = pipeline::EarthField::Source::model;
+  EXPECT_EQ(find(audited(log).findings, "compass.heading")->certainty, Certainty::likely);
+  Finding wrong{"convention.degrees_for_radians", "Conventions", "rate"};
+  wrong.certainty = Certainty::found;
+  const AuditedFile file = audited(log, {wrong});
+  const Finding& heading = *find(file.findings, "compass.heading");
+  EXPECT_EQ(heading.certainty, Certainty::cannot_say);
+  EXPECT_NE(heading.sentence.find("The rates are not what they should be"), std::string::npos) << heading.sentence;
+}
+
 TEST(Audit, ACompassWithoutAFieldTellsNoStep) {
   AuditedLog log;
   log.compass = "compass";
