@@ -67,6 +67,25 @@ TEST_F(WrongUsage, NoOutputIsWrittenOverAnother) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "y.cap"));
 }
 
+TEST_F(WrongUsage, AWindowWithoutAReadingIsNoEmptyAnswer) {
+  ASSERT_EQ(run("simulate --mission survey --seconds 20 -o a.cap").status, 0);
+  std::filesystem::copy(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml", folder_ / "v.toml");
+  for (const char* command : {"calibrate", "audit", "gap", "identify --vehicle v.toml -o w.toml", "noise"}) {
+    const auto with = [&](const char* window) { return std::string(command) + " a.cap " + window; };
+    const std::string nothing = "--from and --to leave nothing of the recording, which is ";
+    expect_refused(with("--from 9 --to 3"), 2,
+                   command == std::string("noise") ? nothing : "--from 9 is not before --to 3");
+    expect_refused(with("--from 3000"), 2, nothing);
+    expect_refused(with("--to 0"), 2, nothing);
+  }
+  expect_refused("calibrate a.cap --from 2026-01-01T00:00:09Z --to 2026-01-01T00:00:09Z", 2, "is not before");
+  expect_refused("calibrate a.cap --from 5 --to 2025-01-01T00:00:00Z", 2, "leave nothing of the recording");
+  EXPECT_EQ(run("calibrate a.cap --from 2026-01-01T00:00:05Z").status, 0);
+  // Of a series, the first file may lie before the window.
+  ASSERT_EQ(run("simulate --mission survey --seconds 20 --date 2026-01-02 -o b.cap").status, 0);
+  EXPECT_EQ(run("calibrate a.cap b.cap --from 2026-01-01T12:00:00Z").status, 0);
+}
+
 TEST_F(WrongUsage, AFileThatCannotBeReadIsBadInputAndNamedOnce) {
   ASSERT_EQ(run("simulate --mission survey --seconds 5 -o a.cap").status, 0);
   for (const char* command : {"replay no.cap",
@@ -92,7 +111,7 @@ TEST_F(WrongUsage, AFileThatCannotBeReadIsBadInputAndNamedOnce) {
                               "gap trial --cases 1 --layout no.toml"}) {
     expect_refused(command, 3, ": No such file or directory");
     const std::string said = run(command).errors;
-    EXPECT_EQ(said.find("no"), said.rfind("no.")) << said;
+    EXPECT_EQ(said.find(" no"), said.rfind(" no")) << said;
     EXPECT_EQ(said.find("error"), std::string::npos) << said;
   }
   // What cannot be written is no bad input.
