@@ -55,7 +55,7 @@ void CalibrateRun::play(const std::string& file, const record::Progress& progres
   for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
     if (pipeline_->statistics(port).has_corrected_fields) tell_corrected_fields(file);
   }
-  for (const auto& remark : recording->remarks()) remarks_.push_back(fmt::format("{}: {}", file, remark));
+  remarks_.insert(remarks_.end(), recording->remarks().begin(), recording->remarks().end());
 }
 
 void CalibrateRun::at(const std::string& file, std::int64_t time_ns) {

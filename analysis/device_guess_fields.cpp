@@ -73,8 +73,7 @@ class Columns {
   }
 
   [[nodiscard]] bool is_constant(std::size_t at) const {
-    return std::all_of(frames_.begin(), frames_.end(),
-                       [&](Bytes frame) { return frame[at] == frames_.front()[at]; });
+    return std::ranges::all_of(frames_, [&](Bytes frame) { return frame[at] == frames_.front()[at]; });
   }
 
   /// Numbers of floating point are of ordinary size; other bytes seldom make such.

@@ -58,10 +58,8 @@ char separator_of(const std::vector<std::string_view>& lines) {
   char best = ',';
   std::size_t most = 0;
   for (const char separator : kSeparators) {
-    const auto with =
-        static_cast<std::size_t>(std::count_if(lines.begin(), lines.end(), [&](std::string_view line) {
-          return line.find(separator) != std::string_view::npos;
-        }));
+    const auto with = static_cast<std::size_t>(std::ranges::count_if(
+        lines, [&](std::string_view line) { return line.find(separator) != std::string_view::npos; }));
     if (with > most) best = separator;
     most = std::max(most, with);
   }
@@ -174,8 +172,7 @@ std::string text_frames(Bytes capture, char& separator) {
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::string start = start_of(lines[i], separator);
     if (start.size() > 32 || !is_printable(start)) continue;
-    auto kind =
-        std::find_if(kinds.begin(), kinds.end(), [&](const LineKind& known) { return known.start == start; });
+    auto kind = std::ranges::find_if(kinds, [&](const LineKind& known) { return known.start == start; });
     if (kind == kinds.end()) kind = kinds.insert(kinds.end(), LineKind{start, 0, 0, {}, {}});
     take_line(lines[i], separator, *kind);
   }
@@ -183,8 +180,7 @@ std::string text_frames(Bytes capture, char& separator) {
     return kind.lines < kLeastLines || std::all_of(kind.columns.begin(), kind.columns.end(),
                                                    [](const Column& column) { return column.numbers == 0; });
   });
-  std::stable_sort(kinds.begin(), kinds.end(),
-                   [](const LineKind& a, const LineKind& b) { return a.lines > b.lines; });
+  std::ranges::stable_sort(kinds, std::ranges::greater(), &LineKind::lines);
   if (kinds.size() > kMostKinds) kinds.resize(kMostKinds);
   // Lines that begin with a number would also take any other line with as many fields: they come last.
   std::stable_partition(kinds.begin(), kinds.end(), [](const LineKind& kind) { return !kind.start.empty(); });

@@ -61,7 +61,7 @@ void ReplayRun::take_event(const record::LoggedEvent& event, ReplaySink& sink) {
 void ReplayRun::finish(ReplaySink& sink) {
   ended_ = true;
   pipeline_.advance(newest_ns_, sink);
-  for (const auto& remark : recording_->remarks()) remarks_.push_back(file_ + ": " + remark);
+  remarks_.insert(remarks_.end(), recording_->remarks().begin(), recording_->remarks().end());
 }
 
 }  // namespace navcal::analysis

@@ -54,7 +54,7 @@ bool SurfacingRun::play(const std::string& file) {
     progress.show(recording->progress());
   }
   pipeline_->advance(newest_ns_, *this);
-  for (const auto& remark : recording->remarks()) remarks_.push_back(file + ": " + remark);
+  remarks_.insert(remarks_.end(), recording->remarks().begin(), recording->remarks().end());
   return true;
 }
 

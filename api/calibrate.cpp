@@ -67,14 +67,12 @@ Calibration calibration_of(const calib::Report& report, const analysis::Calibrat
 }  // namespace
 
 const Quantity* CalibratorResult::quantity(std::string_view quantity_name) const noexcept {
-  const auto found = std::find_if(estimate.begin(), estimate.end(),
-                                  [&](const Quantity& quantity) { return quantity.name == quantity_name; });
+  const auto found = std::ranges::find(estimate, quantity_name, &Quantity::name);
   return found == estimate.end() ? nullptr : &*found;
 }
 
 const CalibratorResult* Calibration::find(std::string_view name) const noexcept {
-  const auto found = std::find_if(calibrators.begin(), calibrators.end(),
-                                  [&](const CalibratorResult& result) { return result.name == name; });
+  const auto found = std::ranges::find(calibrators, name, &CalibratorResult::name);
   return found == calibrators.end() ? nullptr : &*found;
 }
 

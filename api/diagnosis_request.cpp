@@ -10,13 +10,12 @@
 #include "config/vehicle_file.h"
 #include "emulation/place_arguments.h"
 #include "gap/data/silence.h"
+#include "gap/thresholds.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 
 namespace navcal::api {
 namespace {
-
-constexpr int kLeastBank = 2, kMostBank = 10'000;
 
 /// Throws Error for a name that is none of an instrument.
 std::vector<gap::Quantity> quantities_named(const std::string& name) {
@@ -35,8 +34,9 @@ gap::Request request_of(const std::vector<std::filesystem::path>& missions, cons
     if (!sim::make_effect(name))
       throw Error(ErrorKind::bad_argument, fmt::format("exclude {}: {}", name, sim::unknown_effect(name)));
   }
-  if (options.bank < kLeastBank || options.bank > kMostBank)
-    throw Error(ErrorKind::bad_argument, fmt::format("bank: must be 2 to 10000, not {}", options.bank));
+  if (options.bank < gap::kLeastNulls || options.bank > gap::kMostNulls)
+    throw Error(ErrorKind::bad_argument,
+                fmt::format("bank: must be {} to {}, not {}", gap::kLeastNulls, gap::kMostNulls, options.bank));
   gap::Request request;
   request.missions = missions;
   request.holdouts = options.holdouts;

@@ -13,8 +13,8 @@
 
 #include "base/failure.h"
 #include "config/error.h"
+#include "record/byte_source.h"
 #include "record/recording.h"
-#include "sim/path.h"
 
 namespace navcal::api {
 
@@ -72,7 +72,7 @@ auto guarded(Job&& job) -> decltype(job()) {
     throw Error(ErrorKind::bad_input, error.what());
   } catch (const config::Error& error) {
     throw Error(ErrorKind::bad_input, error.what());
-  } catch (const sim::BadPath& error) {
+  } catch (const record::UnreadableFile& error) {
     throw Error(ErrorKind::bad_input, error.what());
   } catch (const base::Failure& error) {
     throw Error(kind_of(error), error.what());

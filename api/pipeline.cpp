@@ -75,8 +75,7 @@ Pipeline Pipeline::from_text(std::string_view toml, std::string_view name) {
 const std::vector<Port>& Pipeline::ports() const { return state_->ports; }
 
 std::size_t Pipeline::port(std::string_view name) const {
-  const auto found = std::find_if(state_->ports.begin(), state_->ports.end(),
-                                  [name](const Port& port) { return port.name == name; });
+  const auto found = std::ranges::find(state_->ports, name, &Port::name);
   if (found == state_->ports.end()) {
     throw Error(ErrorKind::bad_argument, "port " + std::string(name) + ": the configuration has no such port");
   }

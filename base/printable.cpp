@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 
 namespace navcal::base {
 std::size_t utf8_length(std::string_view text) {
@@ -46,6 +47,11 @@ std::string printable(std::string_view text, std::string_view kept) {
     text.remove_prefix(length > 0 ? length : 1);
   }
   return out;
+}
+
+std::string printable(const std::exception& error) {
+  const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  return printable(of_file ? of_file->path1().string() + ": " + of_file->code().message() : error.what(), "\n");
 }
 
 }  // namespace navcal::base

@@ -72,9 +72,8 @@ std::vector<analysis::Finding> convention_findings(const std::string& recording,
 }
 
 void audit(const AuditArguments& arguments) {
-  std::vector<std::filesystem::path> inputs(arguments.files.begin(), arguments.files.end());
-  inputs.insert(inputs.end(), {arguments.vehicle, arguments.map});
-  expect_results(inputs, {arguments.json, arguments.report});
+  expect_results(all_paths({arguments.files}, {arguments.vehicle, arguments.map}),
+                 {arguments.json, arguments.report});
   const base::Interruptible interruptible;
   analysis::Audit found;
   for (const std::string& file : arguments.files) {

@@ -56,18 +56,21 @@ void write_parameters(const std::string& file, const calib::Report& report, cons
 
 void calibrate(const CalibrateCommandOptions& options) {
   const record::TimeWindow window = options.window();
-  std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
-  inputs.emplace_back(options.config);
-  expect_results(inputs, {options.report, options.parameters});
+  expect_results(all_paths({options.files}, {options.config}), {options.report, options.parameters});
   const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                : config::load(options.config);
   std::optional<analysis::CalibrateHistory> history;
   if (!options.report.empty()) history.emplace(settings);
   analysis::CalibrateRun run(settings, history ? &*history : nullptr);
+  std::size_t outside = 0;
   for (const std::string& file : options.files) {
     base::Progress progress("calibrate");
-    run.play(
-        file, [&progress](double share) { progress.show(share); }, window);
+    try {
+      run.play(
+          file, [&progress](double share) { progress.show(share); }, window);
+    } catch (const record::NothingInWindow&) {  // of a series, some files may lie outside
+      if (++outside == options.files.size()) throw;
+    }
   }
   const calib::Report report = run.finish();
   tell_remarks("navcal", run.remarks());

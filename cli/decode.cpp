@@ -69,8 +69,7 @@ analysis::DecodeSummary DescribedDecoder::decode(
 }
 
 void DescribedDecoder::describe(analysis::FieldWriter& fields, const protocols::Frame& frame) {
-  const auto kind =
-      std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& known) { return known.id == frame.id; });
+  const auto kind = std::ranges::find_if(kinds_, [&](const Kind& known) { return known.id == frame.id; });
   if (kind == kinds_.end()) return;
   const bool is_possible = kind->reader.read(frame.bytes, kind->values);
   kind->reader.read_plain(frame.bytes, kind->values);

@@ -21,6 +21,7 @@
 #include "fleet/merge.h"
 #include "fleet/plan_report.h"
 #include "fleet/worker_pool.h"
+#include "gap/thresholds.h"
 
 namespace navcal::cli {
 namespace {
@@ -136,7 +137,7 @@ void add_fleet_plan(CLI::App& parent) {
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->capture_default_str();
-  add_number(command, "--bank", 2, 10'000, request->bank_missions,
+  add_number(command, "--bank", gap::kLeastNulls, gap::kMostNulls, request->bank_missions,
              "number of simulated null missions of each bank");
   add_defaulted(command, "--seed", request->bank_seed, "seed of their noise and tolerances");
   command->footer(

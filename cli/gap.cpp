@@ -22,6 +22,7 @@
 #include "cli/live/exit_statuses.h"
 #include "cli/live/result_file.h"
 #include "cli/live/shared_options.h"
+#include "config/complaints.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
@@ -78,12 +79,7 @@ ExportFile export_file(const std::string& wanted, const fs::path& origin) {
   return {simulator, file};
 }
 
-void expect_no_such_file(const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(file, error))) return;
-  throw base::Failure(base::Exit::failed,
-                      file.string() + ": the file exists and is not overwritten; --overwrite replaces it");
-}
+constexpr std::string_view kReplaces = "; --overwrite replaces it";
 
 void add_export_options(CLI::App* command, ExportOptions& options) {
   add_repeatable(
@@ -101,7 +97,7 @@ std::vector<ExportFile> export_files(const ExportOptions& options, const fs::pat
   for (const std::string& wanted : options.wanted) files.push_back(export_file(wanted, origin));
   for (const auto& [simulator, file] : files) {
     expect_folder_of(file);
-    if (!options.overwrite) expect_no_such_file(file);
+    if (!options.overwrite) expect_new(file, kReplaces);
   }
   return files;
 }
@@ -113,7 +109,7 @@ void write_exports(const std::vector<ExportFile>& files, const ExportOptions& op
   for (const auto& one : files) {
     const fs::path& file = one.file;
     const report::SimulatorFile content = content_of(one);
-    if (!options.overwrite) expect_no_such_file(file);
+    if (!options.overwrite) expect_new(file, kReplaces);
     write_result(file, content.text);
     std::fputs(fmt::format("navcal: {}: {}\n", file.string(), content.summary).c_str(), stderr);
   }
@@ -213,7 +209,9 @@ void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& opt
               report::gap_text(diagnosis, source));
 }
 
-gap::Diagnosis saved_diagnosis(const std::string& file) { return report::gap_from_json(read_file(file), file); }
+gap::Diagnosis saved_diagnosis(const std::string& file) {
+  return report::gap_from_json(config::content_of(file), file);
+}
 
 /// Checks what can be checked before the work. Throws Failure.
 std::vector<ExportFile> expect_outputs(const GapCommandOptions& options, bool has_layout) {
@@ -228,11 +226,9 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options, bool ha
                               ? "--export: of a layout only the layout itself can be written: --export layout"
                               : "--export layout needs a layout (--vehicle)");
   }
-  std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
-  inputs.insert(inputs.end(), options.nominals.begin(), options.nominals.end());
-  inputs.insert(inputs.end(), source.missions.begin(), source.missions.end());
-  inputs.insert(inputs.end(), {options.origin(), source.vehicle, source.config});
-  expect_results(inputs, outputs);
+  expect_results(all_paths({source.holdouts, options.nominals, source.missions},
+                           {options.origin(), source.vehicle, source.config}),
+                 outputs);
   return exports;
 }
 

@@ -50,10 +50,8 @@ void expect_writable(const GapNextOptions& options) {
                         options.mission + ": this mission is there already; --overwrite replaces it");
   }
   const report::GapSource& asked = options.asked.source;
-  std::vector<std::filesystem::path> inputs(asked.missions.begin(), asked.missions.end());
-  inputs.insert(inputs.end(), asked.holdouts.begin(), asked.holdouts.end());
-  inputs.insert(inputs.end(), {asked.vehicle, asked.config, options.limits});
-  expect_results(inputs, {options.mission, options.json, options.report});
+  expect_results(all_paths({asked.missions, asked.holdouts}, {asked.vehicle, asked.config, options.limits}),
+                 {options.mission, options.json, options.report});
 }
 
 void write_plan(const gap::NextMission& next, const GapNextOptions& options) {

@@ -10,6 +10,7 @@
 #include "config/load.h"
 #include "emulation/chosen_vehicle.h"
 #include "gap/data/silence.h"
+#include "gap/thresholds.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 
@@ -94,7 +95,7 @@ void add_gap_request(CLI::App& command, GapRequestOptions& options) {
       "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
       "gyros, accelerometers, depth, gps or motor; repeatable");
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  add_number(&command, "--bank", 2, 10'000, options.bank_missions, "so many")->group(bank);
+  add_number(&command, "--bank", gap::kLeastNulls, gap::kMostNulls, options.bank_missions, "so many")->group(bank);
   add_defaulted(&command, "--seed", options.bank_seed, "seed of their noise and tolerances")->group(bank);
   add_valued(&command, "--cache", "DIR", options.cache, "folder in which they are kept; default: ~/.cache/navcal")
       ->group(bank);

@@ -13,6 +13,8 @@
 #include "cli/live/commands.h"
 #include "cli/live/exit_statuses.h"
 #include "cli/live/result_file.h"
+#include "config/complaints.h"
+#include "gap/thresholds.h"
 #include "report/validation_report.h"
 #include "report/validation_words.h"
 #include "validation/active_trial.h"
@@ -54,7 +56,7 @@ void complete(GapTrialCommandOptions& options) {
   expect(!options.asking.bank_missions,
          "--bank with --layout: the floor of a layout is that of nominal recordings (--nominal)");
   for (const std::string& file : options.layouts)
-    on.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
+    on.layouts.push_back({std::filesystem::path(file).filename().string(), config::content_of(file)});
 }
 
 /// Stream for text; JSON may have standard output for itself.
@@ -152,7 +154,7 @@ void run_active_trial(const GapTrialCommandOptions& options) {
 void run(GapTrialCommandOptions options) {
   complete(options);
   // Hours later is too late to learn that a file cannot be written.
-  expect_results({}, {options.json, options.report});
+  expect_results({options.layouts.begin(), options.layouts.end()}, {options.json, options.report});
   if (!options.asking.keep.empty()) std::filesystem::create_directories(options.asking.keep);
   if (options.active) return run_active_trial(options);
   options.asking.timeout = std::chrono::seconds(options.timeout_s);
@@ -233,7 +235,7 @@ void add_gap_trial(CLI::App& gap) {
   add_number(command, "--jobs", 1, 256, asking.jobs, "number of cases at a time; one diagnosis uses all cores");
   add_valued(command, "--bank", "N", asking.bank_missions,
              "number of null missions of the diagnosis; default: that of navcal gap")
-      ->check(CLI::Range(1, 100000));
+      ->check(CLI::Range(gap::kLeastNulls, gap::kMostNulls));
   add_valued(command, "--without", "LIST", asking.without,
              "instruments that the diagnosis has to do without: those of navcal gap --without")
       ->delimiter(',');

@@ -22,12 +22,14 @@
 #include "cli/live/result_file.h"
 #include "cli/live/shared_options.h"
 #include "cli/live/watch_stream.h"
+#include "config/complaints.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
 #include "emulation/chosen_vehicle.h"
 #include "emulation/place_arguments.h"
 #include "gap/data/mission.h"
+#include "gap/thresholds.h"
 #include "gap/watch/live_records.h"
 #include "gap/watch/state_file.h"
 #include "record/recording.h"
@@ -169,7 +171,7 @@ std::optional<Setting> setting_of(const GapWatchOptions& options, Clock::time_po
 std::string restore(const GapWatchOptions& options, std::string_view model, gap::Watch& watch) {
   std::error_code error;
   if (options.state.empty() || !std::filesystem::exists(options.state, error)) return {};
-  auto state = gap::read_state(read_file(options.state), model);
+  auto state = gap::read_state(config::content_of(options.state), model);
   if (!state) return options.state + ": a state of another version, vehicle or reference, or damaged; begun anew";
   try {
     watch.restore(std::move(*state));
@@ -275,7 +277,8 @@ void add_gap_watch(CLI::App& gap) {
   add_valued(command, "--metrics", "FILE.prom", options->metrics, "numbers for Prometheus' textfile collector");
   add_number(command, "--status-minutes", 0.0, 1440.0, options->status_min, "time between two status events");
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  add_number(command, "--bank", 12, 10'000, options->bank_missions, "number of null missions")->group(bank);
+  add_number(command, "--bank", 12, gap::kMostNulls, options->bank_missions, "number of null missions")
+      ->group(bank);
   add_defaulted(command, "--seed", options->bank_seed, "seed of their noise and tolerances")->group(bank);
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);

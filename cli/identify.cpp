@@ -27,13 +27,6 @@ struct IdentifyCommandOptions : WindowOptions {
   bool no_advice = false, force = false;
 };
 
-std::vector<std::filesystem::path> inputs_of(const IdentifyCommandOptions& options) {
-  std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
-  inputs.insert(inputs.end(), options.held_out.begin(), options.held_out.end());
-  inputs.insert(inputs.end(), {options.vehicle, options.config});
-  return inputs;
-}
-
 identify::Identification identification_of(const IdentifyCommandOptions& options) {
   const record::TimeWindow window = options.window();
   identify::IdentifyRequest request;
@@ -61,7 +54,8 @@ void write_identification(const IdentifyCommandOptions& options, const identify:
 }
 
 void run_identify(const IdentifyCommandOptions& options) {
-  expect_results(inputs_of(options), {options.output, options.json, options.report});
+  expect_results(all_paths({options.files, options.held_out}, {options.vehicle, options.config}),
+                 {options.output, options.json, options.report});
   with_exit_statuses([&] { write_identification(options, identification_of(options)); }, base::Exit::bad_input);
 }
 

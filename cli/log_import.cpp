@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -33,9 +32,9 @@ void expect_known_format(const std::string& name) {
 
 void import_file(const ImportArguments& arguments) {
   expect_known_format(arguments.options.format);
-  expect_no_overwriting({arguments.file, arguments.options.map}, {arguments.to});
+  expect_results({arguments.file, arguments.options.map}, {arguments.to});
   expect_not_ending(arguments.to, ".cap", "a log (.mcap)", "navcal log export --cap makes a capture of a log");
-  expect_folder_of(arguments.to);
+  expect_new(arguments.to);
   auto device = protocols::protocol_named(arguments.driver);
   const bool is_foreign = !device && run_log_job([&](const record::Progress&) {
     return analysis::is_foreign_log(arguments.file, arguments.options);
@@ -47,8 +46,6 @@ void import_file(const ImportArguments& arguments) {
                           return analysis::import_capture(arguments.file, arguments.to, progress);
                         }));
   }
-  if (std::filesystem::exists(arguments.to))
-    throw base::Failure(base::Exit::failed, arguments.to + ": there is a file already");
   const auto report = run_log_job([&](const record::Progress& progress) {
     return device ? analysis::import_bytes(arguments.file, *device, arguments.baud, arguments.to, progress)
                   : analysis::import_log(arguments.file, arguments.to, arguments.options, progress);

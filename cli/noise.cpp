@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -22,18 +21,6 @@ struct NoiseCommandOptions {
   bool json = false;
 };
 
-/// Whoever has a configuration there may depend on it.
-void expect_new(const std::string& file) {
-  std::error_code error;
-  if (file.empty() || !std::filesystem::exists(std::filesystem::symlink_status(file, error))) return;
-  throw base::Failure(base::Exit::failed, file + ": the file exists and is not overwritten");
-}
-
-void expect_outputs(const NoiseCommandOptions& options) {
-  expect_results({options.request.file, options.config}, {options.page, options.write});
-  expect_new(options.write);
-}
-
 void write_configuration(const NoiseCommandOptions& options, const analysis::NoiseReport& report,
                          const config::Settings& settings) {
   const std::string toml = analysis::noise_configuration(report, settings);
@@ -45,7 +32,8 @@ void write_configuration(const NoiseCommandOptions& options, const analysis::Noi
 }
 
 void find_noise(const NoiseCommandOptions& options) {
-  expect_outputs(options);
+  expect_results({options.request.file, options.config}, {options.page, options.write});
+  expect_new(options.write);
   const auto settings = options.config.empty() ? record::Recording::open(options.request.file)->settings()
                                                : config::load(options.config);
   const analysis::NoiseReport report = analysis::noise_of(options.request, settings);

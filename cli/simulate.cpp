@@ -64,9 +64,9 @@ void simulate(SimulateCommandOptions& options) {
   }
   if (arguments.capture.empty()) throw base::Failure(base::Exit::usage, "-o FILE.cap is required: the recording");
   expect_not_ending(arguments.capture, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
-  expect_no_overwriting({arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.config,
-                         arguments.effects_file},
-                        {arguments.capture, arguments.truth, arguments.report});
+  expect_results({arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.config,
+                  arguments.effects_file},
+                 {arguments.capture, arguments.truth, arguments.report});
   arguments.begin_ns = arguments.where.day_ns().value_or(emulation::kSimulatedBegin_ns);
   arguments.place = emulation::simulated_place(arguments.where, arguments.begin_ns);
   if (!arguments.place.remark.empty()) std::fprintf(stderr, "navcal: %s\n", arguments.place.remark.c_str());

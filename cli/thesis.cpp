@@ -26,11 +26,6 @@ void expect_thesis_outputs(const ThesisCommandOptions& options) {
   expect_results(inputs, {options.page, options.json});
 }
 
-void write_thesis_json(const std::string& file, const std::string& json) {
-  if (file != "-") return write_result(file, json);
-  print_answer(json);
-}
-
 void recompute_thesis(ThesisCommandOptions options) {
   if (options.request.folder.empty()) options.request.folder = analysis::thesis_folder();
   expect_thesis_outputs(options);
@@ -40,7 +35,7 @@ void recompute_thesis(ThesisCommandOptions options) {
                                     [&](std::string_view what, double done) { progress.show(what, done); });
   }();
   if (!options.page.empty()) write_result(options.page, report::thesis_page(results));
-  if (!options.json.empty()) write_thesis_json(options.json, report::thesis_json(results));
+  if (!options.json.empty()) give_answer(options.json, report::thesis_json(results), {});
 }
 
 }  // namespace

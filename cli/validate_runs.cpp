@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 
 #include "cli/live/commands.h"
 #include "cli/live/result_file.h"
+#include "config/complaints.h"
 #include "runs/diagnosis.h"
 #include "runs/nominal_vehicle.h"
 
@@ -31,11 +31,9 @@ using RunPools = std::vector<std::pair<std::string, std::vector<std::string>>>;
 }
 
 RunPools read_run_pools(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::system_error(errno, std::generic_category(), file);
   nlohmann::ordered_json content;
   try {
-    content = nlohmann::ordered_json::parse(stream);
+    content = nlohmann::ordered_json::parse(config::content_of(file));
   } catch (const nlohmann::json::parse_error& error) {
     bad_pools(file, fmt::format("byte {}: not JSON: {}", error.byte, error.what()));
   }
@@ -76,10 +74,12 @@ constexpr std::uintmax_t kLargestRunFile = 200'000'000;
 /// its file without the ending.
 std::vector<runs::Run> read_run_folder(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
     if (entry.is_regular_file() && entry.path().extension() == ".csv") files.push_back(entry.path());
   }
-  if (files.empty()) throw runs::BadRun(folder.string() + ": no run files (.csv)");
+  if (files.empty())
+    throw runs::BadRun(fmt::format("{}: {}", folder.string(), error ? error.message() : "no run files (.csv)"));
   std::ranges::sort(files);
   std::map<std::string, std::filesystem::path> named;
   std::vector<runs::Run> read;
@@ -91,7 +91,7 @@ std::vector<runs::Run> read_run_folder(const std::filesystem::path& folder) {
     if (!fresh) {
       throw runs::BadRun(fmt::format("{}: another run is named so: {}", file.string(), known->second.string()));
     }
-    read.push_back(runs::read_run(read_file(file), name, file.string()));
+    read.push_back(runs::read_run(config::content_of(file), name, file.string()));
   }
   return read;
 }

@@ -80,10 +80,8 @@ identify::Prediction prediction_of(const VehiclePredictArguments& arguments) {
 }
 
 void predict_vehicle(const VehiclePredictArguments& arguments) {
-  std::vector<std::filesystem::path> inputs(arguments.files.begin(), arguments.files.end());
-  inputs.insert(inputs.end(), arguments.fit.begin(), arguments.fit.end());
-  inputs.insert(inputs.end(), {arguments.layout, arguments.config});
-  expect_results(inputs, {arguments.json});
+  expect_results(all_paths({arguments.files, arguments.fit}, {arguments.layout, arguments.config}),
+                 {arguments.json});
   with_exit_statuses(
       [&] {
         const identify::Prediction found = prediction_of(arguments);
@@ -95,13 +93,7 @@ void predict_vehicle(const VehiclePredictArguments& arguments) {
 
 void convert_vehicle(const VehicleConvertArguments& arguments) {
   expect_results({arguments.vehicle}, {arguments.output});
-  config::VehicleSettings vehicle;
-  try {
-    vehicle = config::load_vehicle(arguments.vehicle);
-  } catch (const config::Error& error) {
-    throw base::Failure(base::Exit::bad_input, error.what());
-  }
-  const std::string toml = config::layout_file(sim::layout_of(vehicle));
+  const std::string toml = config::layout_file(sim::layout_of(config::load_vehicle(arguments.vehicle)));
   if (arguments.output.empty() || arguments.output == "-") {
     std::fputs(toml.c_str(), stdout);
   } else {

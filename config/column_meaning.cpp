@@ -77,8 +77,7 @@ std::vector<ColumnUnit> units_of(Meaning quantity) {
     if (unit.dimension == info_of(quantity).dimension) units.push_back(unit);
   };
   const auto is_own = [](const ColumnUnit& unit) {
-    return std::any_of(kOwnUnits.begin(), kOwnUnits.end(),
-                       [&](const ColumnUnit& own) { return own.name == unit.name; });
+    return std::ranges::any_of(kOwnUnits, [&](const ColumnUnit& own) { return own.name == unit.name; });
   };
   for (const ColumnUnit& unit : protocols::described::all_units()) {
     if (!is_own(unit)) add(unit);
@@ -98,8 +97,7 @@ const ColumnMeaning* column_meaning_named(std::string_view name) {
   const auto quantity = protocols::described::meaning_named(name);
   if (!quantity || quantity == Meaning::temperature)
     return nullptr;  // of which instrument, only the map's own name says
-  const auto* const found = std::find_if(kMeanings.begin(), kMeanings.end(),
-                                         [&](const ColumnMeaning& row) { return row.quantity == quantity; });
+  const auto* const found = std::ranges::find(kMeanings, quantity, &ColumnMeaning::quantity);
   return found == kMeanings.end() ? nullptr : found;
 }
 

@@ -154,8 +154,7 @@ void grow(const toml::table& table, std::size_t depth, Node& node) {
     }
     node.children.push_back(std::move(child));
   }
-  std::stable_sort(node.children.begin(), node.children.end(),
-                   [](const Node& a, const Node& b) { return a.line < b.line; });
+  std::ranges::stable_sort(node.children, {}, &Node::line);
 }
 
 /// Adds a value or a table, with what lies in it, to the entries; `keys` are those of the tables around it.

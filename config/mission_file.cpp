@@ -144,8 +144,8 @@ Mission load_mission(const std::string& name_or_file) {
     if (shipped.name == name_or_file) return parse_mission(shipped.toml, name_or_file);
     names.emplace_back(shipped.name);
   }
-  throw Error({fmt::format("there is no mission {}{}; known: {} (a file has a / or ends in .toml)", name_or_file,
-                           suggestion(name_or_file, names), fmt::join(names, ", "))});
+  throw Error({fmt::format("there is no mission {}{} (a file has a / or ends in .toml)", name_or_file,
+                           suggestion_or_all(name_or_file, names))});
 }
 
 }  // namespace navcal::config

@@ -213,8 +213,7 @@ void Reader::check_roles() {
       problems_.push_back({role_lines_.at(static_cast<std::size_t>(role)), fmt::format("roles.{}", name_of(role)),
                            std::move(message)});
     };
-    const auto port = std::find_if(settings_.ports.begin(), settings_.ports.end(),
-                                   [&](const PortSettings& known) { return known.name == name; });
+    const auto port = std::ranges::find(settings_.ports, name, &PortSettings::name);
     if (port == settings_.ports.end()) {
       problem(fmt::format("there is no port {}", name) + suggestion(name, names));
     } else if (!can_deliver(*port, role)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/suggestion.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -42,6 +44,11 @@ std::string suggestion(std::string_view given, const std::vector<std::string>& k
     }
   }
   return meant.empty() ? meant : "; did you mean " + meant + "?";
+}
+
+std::string suggestion_or_all(std::string_view given, const std::vector<std::string>& known) {
+  const std::string guess = suggestion(given, known);
+  return guess.empty() ? fmt::format("; known: {}", fmt::join(known, ", ")) : guess;
 }
 
 }  // namespace navcal::config

@@ -188,7 +188,7 @@ int main(int argc, char** argv) {
         navcal::daemon::order_safe_state_of(navcal::daemon::second_note(options.config), kSafeState);
     return is_safe ? kBadConfiguration : kShaftMayTurn;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "navcald: cannot start: %s\n", error.what());
+    std::fprintf(stderr, "navcald: cannot start: %s\n", navcal::base::printable(error).c_str());
     return kCannotStart;
   }
 }

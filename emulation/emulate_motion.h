@@ -18,7 +18,7 @@ struct EmulatedMotion {
 
 /// How the emulated vehicle moves from options.start_ns (UTC) on: by the orders of motor card or outputs, then in
 /// real time; by a mission, along a path, or along the path that comes with the program. `options.influencer` must
-/// outlive the motion; paths pass it over. Throws sim::BadPath, config::Error or Failure.
+/// outlive the motion; paths pass it over. Throws config::Error or Failure.
 [[nodiscard]] EmulatedMotion emulate_motion(const EmulateArguments& arguments, sim::MotionOptions options);
 
 }  // namespace navcal::emulation

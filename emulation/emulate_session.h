@@ -88,7 +88,7 @@ struct EmulateArguments {
 /// The instruments of the vehicle, live, and the devices that were asked for.
 class EmulateSession {
  public:
-  /// Makes the ports. Throws sim::BadPath, config::Error, Failure, std::system_error, or what ports::PtyHost
+  /// Makes the ports. Throws config::Error, Failure, std::system_error, or what ports::PtyHost
   /// throws.
   EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments);
 
@@ -103,7 +103,7 @@ class EmulateSession {
   void stop() { io_.stop(); }
   /// Completes the truth file. Throws sim::UnstableVehicle or std::system_error.
   void finish();
-  /// The same after sim::UnstableVehicle, with the motion before it. Throws std::system_error.
+  /// The same after an error, with the motion before it. Throws std::system_error.
   void finish_after_error();
   /// To standard error: what became of the bytes.
   void report() const;

@@ -44,8 +44,7 @@ asio::awaitable<void> PlaySession::wait_for_readers() {
   const auto until = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
                                                std::chrono::duration<double>(arguments_.wait_s));
   const auto opened = [](const auto& host) { return host->has_client(); };
-  while (steady_clock::now() < until && !std::all_of(hosts_.begin(), hosts_.end(), opened))
-    co_await pause(kLookAgain);
+  while (steady_clock::now() < until && !std::ranges::all_of(hosts_, opened)) co_await pause(kLookAgain);
   for (const auto& host : hosts_) {
     if (arguments_.wait_s > 0 && !host->has_client()) {
       fmt::print(stderr, "navcal play: starts although no program has opened {}\n", host->link().string());

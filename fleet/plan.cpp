@@ -43,8 +43,7 @@ int number_in(std::string_view text, std::string_view all) {
 
 void add_range(const Plan& plan, int from, int to, std::string_view text, std::vector<const Task*>& found) {
   const auto before = found.size();
-  const auto first = std::lower_bound(plan.tasks.begin(), plan.tasks.end(), from,
-                                      [](const Task& task, int number) { return task.number < number; });
+  const auto first = std::ranges::lower_bound(plan.tasks, from, {}, &Task::number);
   for (auto at = first; at != plan.tasks.end() && at->number <= to; ++at) found.push_back(&*at);
   if (found.size() == before) {
     throw base::Failure(base::Exit::usage, fmt::format("{}: the plan has no such task (navcal fleet list {})",
@@ -57,14 +56,12 @@ void add_range(const Plan& plan, int from, int to, std::string_view text, std::v
 bool Task::makes_bank() const { return job == kBankJob; }
 
 const Task* Plan::task(int number) const {
-  const auto at = std::lower_bound(tasks.begin(), tasks.end(), number,
-                                   [](const Task& task, int wanted) { return task.number < wanted; });
+  const auto at = std::ranges::lower_bound(tasks, number, {}, &Task::number);
   return at != tasks.end() && at->number == number ? &*at : nullptr;
 }
 
 const Task* Plan::maker_of(std::string_view bank) const {
-  const auto at =
-      std::find_if(tasks.begin(), tasks.end(), [&](const Task& t) { return t.makes_bank() && t.bank == bank; });
+  const auto at = std::ranges::find_if(tasks, [&](const Task& t) { return t.makes_bank() && t.bank == bank; });
   return at == tasks.end() ? nullptr : &*at;
 }
 

@@ -33,9 +33,8 @@ std::string answer_to(const std::vector<std::string>& command) {
   if (output.status == base::kNoSuchProgram) {
     throw SlurmError(command.front() + ": Slurm's commands are not installed here (Debian: slurm-client)");
   }
-  const bool is_silent = std::any_of(kSilences.begin(), kSilences.end(), [&](std::string_view words) {
-    return output.err.find(words) != std::string::npos;
-  });
+  const bool is_silent = std::ranges::any_of(
+      kSilences, [&](std::string_view words) { return output.err.find(words) != std::string::npos; });
   const std::string said = first_line(output.err);
   if (is_silent) throw SlurmSilence(said);
   throw SlurmError(said.empty() ? fmt::format("{} ended with status {}", command.front(), output.status) : said);

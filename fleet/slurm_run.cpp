@@ -59,8 +59,7 @@ class SlurmRun {
     for (const QueuedArray& array : arrays) {
       const std::set<int> tasks = batches_.tasks_of(array.name);
       queued.insert(tasks.begin(), tasks.end());
-      const bool has_bank =
-          std::any_of(tasks.begin(), tasks.end(), [&](int number) { return makes_bank(number); });
+      const bool has_bank = std::ranges::any_of(tasks, [&](int number) { return makes_bank(number); });
       if (has_bank) bank_arrays.push_back(array.id);
       shown_.pending += array.pending;
       shown_.running += array.running;
@@ -117,8 +116,7 @@ class SlurmRun {
 
   void submit(const Tasks& ready, const Tasks& waiting, std::vector<std::string> bank_arrays) {
     if (ready.empty() && waiting.empty()) return;
-    const auto others =
-        std::find_if(ready.begin(), ready.end(), [](const Task* task) { return !task->makes_bank(); });
+    const auto others = std::ranges::find_if(ready, [](const Task* task) { return !task->makes_bank(); });
     for (std::string& id : submit_arrays({ready.begin(), others}, {})) bank_arrays.push_back(std::move(id));
     (void)submit_arrays({others, ready.end()}, {});
     (void)submit_arrays(waiting, bank_arrays);

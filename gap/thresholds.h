@@ -100,8 +100,8 @@ inline constexpr std::size_t kWhiteningMissions = 30;
 /// Null missions with the backlash that was found, or for null Bayes factors: enough for a mean and a scatter, few
 /// enough to wait for.
 inline constexpr int kBacklashMissions = 16;
-/// Least number of null missions for a recording to be judged.
-inline constexpr int kLeastNulls = 10;
+/// Least number of null missions for a recording to be judged, and most that can be asked for.
+inline constexpr int kLeastNulls = 10, kMostNulls = 10'000;
 /// Least resemblance of a non-member's usual tolerance to a member, in the member's standard errors, for its
 /// regressor to be computed for each null mission, too; and the largest number of such non-members.
 inline constexpr double kLikeness_sigma = 2;

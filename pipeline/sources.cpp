@@ -178,8 +178,7 @@ void Sources::choose_compass(std::int64_t now_ns) {
 }
 
 std::optional<Sources::Change> Sources::take(Service& service, Role role, const instruments::Sample& sample) {
-  const auto found = std::find_if(service.candidates.begin(), service.candidates.end(),
-                                  [&](const Candidate& candidate) { return candidate.port == sample.port; });
+  const auto found = std::ranges::find(service.candidates, sample.port, &Candidate::port);
   if (found == service.candidates.end()) return std::nullopt;
   Candidate& candidate = *found;
   const auto place = static_cast<std::size_t>(found - service.candidates.begin());

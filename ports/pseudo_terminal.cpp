@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -32,6 +34,21 @@ PseudoTerminal make_pseudo_terminal(int baud) {
   const base::Descriptor slave(::open(name.data(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!slave || !set_raw(slave.get(), baud)) failed("setting up a pseudo-terminal");
   return made;
+}
+
+base::Descriptor keep_link(const std::filesystem::path& link) {
+  namespace fs = std::filesystem;
+  const fs::path full = fs::weakly_canonical(fs::absolute(link).parent_path()) / link.filename();
+  // A name without a file (unix(7), abstract): the kernel forgets it with the process.
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  fmt::format_to_n(&address.sun_path[1], sizeof address.sun_path - 1, "navcal/{:x}", fs::hash_value(full));
+  base::Descriptor kept(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (kept && ::bind(kept.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    throw std::runtime_error(
+        fmt::format("{}: another navcal that runs has this port; end it, or give another --dir", link.string()));
+  }
+  return kept;
 }
 
 void point_link(const std::filesystem::path& link, const std::string& target) {

@@ -17,6 +17,9 @@ struct PseudoTerminal {
 /// Throws std::system_error. No client is seen (the master's hang-up flag stands) until one opens the slave.
 [[nodiscard]] PseudoTerminal make_pseudo_terminal(int baud);
 
+/// Keeps `link` for this process, until the descriptor closes or the process ends, however it ends. Throws
+/// std::runtime_error when another one keeps it.
+[[nodiscard]] base::Descriptor keep_link(const std::filesystem::path& link);
 /// Makes `link` point to `target` in one step, whatever link was there; makes its folder. Throws
 /// std::filesystem::filesystem_error, or std::runtime_error when a file or folder has the name.
 void point_link(const std::filesystem::path& link, const std::string& target);

@@ -48,6 +48,7 @@ struct PtyHost::State : std::enable_shared_from_this<PtyHost::State> {
   OnBytes on_bytes;
   asio::posix::stream_descriptor descriptor;  // borrows the master
   asio::steady_timer timer;
+  base::Descriptor kept;  ///< the name of the link
   PseudoTerminal terminal;
   unsigned pluggings = 0;  // separates the reading coroutine of an earlier terminal from this one's
   Tally tally;
@@ -111,10 +112,14 @@ bool PtyHost::State::take_what_is_there(unsigned my_plugging) {
 
 PtyHost::PtyHost(asio::any_io_executor executor, std::filesystem::path link, int baud, OnBytes on_bytes)
     : state_(std::make_shared<State>(std::move(executor), std::move(link), baud, std::move(on_bytes))) {
+  state_->kept = keep_link(state_->link);
   state_->plug();
 }
 
-PtyHost::~PtyHost() { state_->unplug(); }
+PtyHost::~PtyHost() {
+  state_->unplug();
+  state_->kept = base::Descriptor();
+}
 
 std::size_t PtyHost::write(protocols::Bytes bytes) {
   Tally& tally = state_->tally;

@@ -23,15 +23,13 @@ constexpr std::array kSpeeds{
 }  // namespace
 
 std::optional<speed_t> speed_constant(int baud) {
-  const auto found =
-      std::find_if(kSpeeds.begin(), kSpeeds.end(), [&](auto& entry) { return entry.first == baud; });
+  const auto found = std::ranges::find_if(kSpeeds, [&](auto& entry) { return entry.first == baud; });
   if (found == kSpeeds.end()) return std::nullopt;
   return found->second;
 }
 
 int baud_of(speed_t speed) {
-  const auto found =
-      std::find_if(kSpeeds.begin(), kSpeeds.end(), [&](auto& entry) { return entry.second == speed; });
+  const auto found = std::ranges::find_if(kSpeeds, [&](auto& entry) { return entry.second == speed; });
   return found == kSpeeds.end() ? 0 : found->first;
 }
 

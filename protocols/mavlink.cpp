@@ -67,8 +67,7 @@ std::uint16_t sum_of(Bytes frame, std::size_t head, std::size_t length, const Me
 }  // namespace
 
 const MessageInfo* message_of(std::uint32_t id) {
-  const auto* const found = std::lower_bound(kMessages.begin(), kMessages.end(), id,
-                                             [](const MessageInfo& m, std::uint32_t of) { return m.id < of; });
+  const auto* const found = std::ranges::lower_bound(kMessages, id, {}, &MessageInfo::id);
   return found == kMessages.end() || found->id != id ? nullptr : found;
 }
 

@@ -170,9 +170,7 @@ static_assert(std::is_sorted(kMessageNames.begin(), kMessageNames.end(),
 }  // namespace
 
 std::string_view name_of(MessageCode code) {
-  const auto found =
-      std::lower_bound(kMessageNames.begin(), kMessageNames.end(), code,
-                       [](const MessageName& row, MessageCode wanted) { return row.code < wanted; });
+  const auto found = std::ranges::lower_bound(kMessageNames, code, {}, &MessageName::code);
   return found != kMessageNames.end() && found->code == code ? found->name : std::string_view();
 }
 

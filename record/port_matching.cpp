@@ -7,8 +7,7 @@ namespace navcal::record {
 
 PortMatch::PortMatch(const config::Settings& recorded, const config::Settings& used) {
   for (const auto& port : recorded.ports) {
-    const auto found = std::find_if(used.ports.begin(), used.ports.end(),
-                                    [&](const config::PortSettings& other) { return other.name == port.name; });
+    const auto found = std::ranges::find(used.ports, port.name, &config::PortSettings::name);
     if (found == used.ports.end()) {
       used_.emplace_back();
       missing_.push_back(port.name);

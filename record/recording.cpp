@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recording.h"
 
+#include <fmt/format.h>
+
 #include <deque>
 
 #include "config/csv_map.h"
@@ -56,21 +58,30 @@ std::unique_ptr<ByteSource> open_recording(const std::filesystem::path& file) {
 
 class CutRecording final : public Recording {
  public:
-  CutRecording(std::unique_ptr<Recording> whole, const TimeWindow& window)
-      : whole_(std::move(whole)), window_(window) {}
+  CutRecording(std::unique_ptr<Recording> whole, const TimeWindow& window, std::string name)
+      : whole_(std::move(whole)), window_(window), name_(std::move(name)) {}
   [[nodiscard]] const config::Settings& settings() const override { return whole_->settings(); }
   [[nodiscard]] const std::vector<std::string>& remarks() const override { return whole_->remarks(); }
   [[nodiscard]] double progress() const override { return whole_->progress(); }
   std::optional<Entry> next() override {
     while (ready_.empty()) {
       auto entry = whole_->next();
+      if (!entry && !is_inside_)
+        throw NothingInWindow(
+            base::Exit::usage,
+            fmt::format("{}: --from and --to leave nothing of the recording, which is {:.1f} s long", name_,
+                        static_cast<double>(newest_ns_ - start_ns_.value_or(newest_ns_)) * 1e-9));
       if (!entry) return std::nullopt;
       if (const auto* change = std::get_if<MappingChange>(&*entry)) utc_offset_ns_ = change->mapping.offset_ns;
       const auto* raw = std::get_if<RawRead>(&*entry);
       if (raw != nullptr) {
         if (!start_ns_) start_ns_ = raw->time_ns;
+        newest_ns_ = raw->time_ns;
         if (window_.from && is_before(raw->time_ns, *window_.from)) continue;
-        if (window_.to && !is_before(raw->time_ns, *window_.to)) return std::nullopt;
+        if (window_.to && !is_before(raw->time_ns, *window_.to)) {
+          if (is_inside_) return std::nullopt;
+          continue;
+        }
         for (Entry& before : held_) {
           std::visit([&](auto& one) { one.time_ns = raw->time_ns; }, before);
           ready_.push_back(std::move(before));
@@ -97,6 +108,8 @@ class CutRecording final : public Recording {
   std::optional<std::int64_t> start_ns_;
   std::int64_t utc_offset_ns_ = 0;
   bool is_inside_ = false;
+  std::string name_;
+  std::int64_t newest_ns_ = 0;
 };
 
 std::unique_ptr<Recording> open_whole(const std::filesystem::path& file) {
@@ -128,7 +141,7 @@ bool is_log(const std::filesystem::path& file) {
 std::unique_ptr<Recording> Recording::open(const std::filesystem::path& file, const TimeWindow& window) {
   auto whole = open_whole(file);
   if (!window.from && !window.to) return whole;
-  return std::make_unique<CutRecording>(std::move(whole), window);
+  return std::make_unique<CutRecording>(std::move(whole), window, file.string());
 }
 
 }  // namespace navcal::record

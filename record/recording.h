@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/failure.h"
 #include "config/settings.h"
 #include "pipeline/calibration.h"
 #include "pipeline/utc_mapping.h"
@@ -21,6 +22,12 @@ namespace navcal::record {
 class BadRecording : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// No read lies between --from and --to.
+class NothingInWindow : public base::Failure {
+ public:
+  using base::Failure::Failure;
 };
 
 struct RawRead {
@@ -69,7 +76,7 @@ struct TimeWindow {
 class Recording {
  public:
   /// Reads outside the window are left out; what else was recorded before it comes at its begin. Throws
-  /// BadRecording when the file is neither.
+  /// BadRecording when the file is neither; next() throws NothingInWindow at the end where no read lies in it.
   static std::unique_ptr<Recording> open(const std::filesystem::path& file, const TimeWindow& window = {});
   virtual ~Recording() = default;
 
@@ -77,7 +84,7 @@ class Recording {
   [[nodiscard]] virtual const config::Settings& settings() const = 0;
   /// The next entry; nullopt at the end. Throws BadRecording for what cannot be read over.
   virtual std::optional<Entry> next() = 0;
-  /// Remarks for the user: "last line cut short", "unfinished: 12 bytes after the last whole record".
+  /// Remarks for the user, each with the file's name: "a.mcap: unfinished: 12 bytes after the last whole record".
   [[nodiscard]] virtual const std::vector<std::string>& remarks() const = 0;
   /// How far the file has been read, 0..1, for progress.
   [[nodiscard]] virtual double progress() const = 0;

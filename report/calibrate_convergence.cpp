@@ -86,9 +86,8 @@ EarlyTimeAxis time_axis(const std::vector<std::span<const analysis::EstimatePoin
 
 /// Points with an error. The others are not determined, and shown as zero.
 std::size_t determined(const std::vector<analysis::EstimatePoint>& points) {
-  return static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(),
-                    [](const analysis::EstimatePoint& point) { return std::isfinite(point.std); }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      points, [](const analysis::EstimatePoint& point) { return std::isfinite(point.std); }));
 }
 
 void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const analysis::EstimatePoint> curve,

@@ -24,8 +24,7 @@ Written written(const gap::EffectParameterEstimate& estimate, std::span<const si
   if (!std::isfinite(estimate.value)) return {0, "not determined"};
   const std::string error =
       std::isfinite(estimate.std_error) ? fmt::format("+- {:.2g}", estimate.std_error) : "error not known";
-  const auto found = std::find_if(known.begin(), known.end(),
-                                  [&](const sim::EffectParameter& p) { return p.name == estimate.name; });
+  const auto found = std::ranges::find(known, estimate.name, &sim::EffectParameter::name);
   if (found == known.end()) return {estimate.value, error};
   const double within = std::clamp(estimate.value, found->least, found->greatest);
   if (within == estimate.value) return {within, error};

@@ -104,8 +104,7 @@ std::vector<gap::EffectFinding> findings_of(const SavedValue& list) {
   for (const SavedValue& element : list.elements()) {
     findings.push_back(finding_of(element));
     const auto same = [&](const auto& finding) { return finding.words() == findings.back().words(); };
-    if (std::count_if(findings.begin(), findings.end(), same) > 1)
-      element.refuse(findings.back().words() + " is named twice");
+    if (std::ranges::count_if(findings, same) > 1) element.refuse(findings.back().words() + " is named twice");
   }
   return findings;
 }

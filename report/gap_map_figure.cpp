@@ -43,9 +43,8 @@ std::vector<std::string> names(const std::vector<gap::WhereEntry>& map, std::str
 
 const gap::WhereEntry* entry_of(const std::vector<gap::WhereEntry>& entries, const std::string& channel,
                                 const std::string& regime) {
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const gap::WhereEntry& entry) {
-    return entry.channel == channel && entry.regime == regime;
-  });
+  const auto found = std::ranges::find_if(
+      entries, [&](const gap::WhereEntry& entry) { return entry.channel == channel && entry.regime == regime; });
   return found == entries.end() ? nullptr : &*found;
 }
 

@@ -175,12 +175,14 @@ std::string closed_text(const gap::Closure& closure) {
   constexpr double kGrows = -1;
   if (!closure.closed || !std::isfinite(*closure.closed)) return "nothing to close";
   if (*closure.closed < kGrows) return "grows";
-  std::string text = share_text(*closure.closed);
+  // What is left may be less than the floor by chance; more than the whole gap cannot go away.
+  const auto share = [](double closed) { return share_text(std::min(closed, 1.0)); };
+  std::string text = share(*closure.closed);
   if (closure.closed_ci && closure.closed_ci->front() < kGrows) {
-    text += fmt::format(" (at most {})", share_text(closure.closed_ci->back()));
+    text += fmt::format(" (at most {})", share(closure.closed_ci->back()));
   } else if (closure.closed_ci) {
-    text +=
-        fmt::format(" ({:.0f} to {})", 100 * closure.closed_ci->front(), share_text(closure.closed_ci->back()));
+    text += fmt::format(" ({:.0f} to {})", 100 * std::min(closure.closed_ci->front(), 1.0),
+                        share(closure.closed_ci->back()));
   }
   return text;
 }

@@ -47,8 +47,7 @@ Figure identified_figure(const identify::Identification& found) {
 
 std::string identify_page(const identify::Identification& found) {
   HtmlPage page("Identification of " + found.layout.name);
-  const auto told = std::count_if(found.parameters.begin(), found.parameters.end(),
-                                  [](const auto& one) { return one.is_identified; });
+  const auto told = std::ranges::count_if(found.parameters, [](const auto& one) { return one.is_identified; });
   page.fact("plain", "told",
             fmt::format("{} of {} uncertain numbers, from {:.0f} s of recordings", told, found.parameters.size(),
                         found.seconds));

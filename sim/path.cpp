@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <string_view>
 
+#include "config/complaints.h"
 #include "sim/rotation.h"
 #include "sim/vehicle/motor_current.h"
 
@@ -78,12 +79,11 @@ State completed(State state, const Vector3& velocity_change_m_s2) {
 }  // namespace
 
 std::vector<PathRow> load_path(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw BadPath(fmt::format("{}: cannot be read", file.string()));
+  std::istringstream in(config::content_of(file));
   std::string line;
   std::size_t number = 1;
   const auto fail = [&](std::string_view what) {
-    throw BadPath(fmt::format("{}:{}: {}", file.string(), number, what));
+    throw config::Error({fmt::format("{}:{}: {}", file.string(), number, what)});
   };
   const auto next = [&] {
     if (!std::getline(in, line)) return false;

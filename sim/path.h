@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,13 +14,8 @@ struct PathRow : State {
   double t_s = 0;
 };
 
-/// A file that is no path; what() names file and line.
-class BadPath : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// Reads t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3 with increasing times; yaw may be wrapped or not.
+/// Throws config::Error, which names file and line.
 [[nodiscard]] std::vector<PathRow> load_path(const std::filesystem::path& file);
 
 /// Writes states as such a file, so that the true motion can be driven or carried along again; the fins are those

@@ -67,16 +67,14 @@ bool Access::knows_host(std::string_view host) const {
   if (name.find('.') == std::string_view::npos) return true;
   constexpr std::string_view kLocal = ".local";
   if (name.size() > kLocal.size() && is_same_word(name.substr(name.size() - kLocal.size()), kLocal)) return true;
-  return std::any_of(host_names_.begin(), host_names_.end(),
-                     [name](const std::string& known) { return is_same_word(known, name); });
+  return std::ranges::any_of(host_names_, [name](const std::string& known) { return is_same_word(known, name); });
 }
 
 bool Access::knows_origin(std::string_view origin, std::string_view host) const {
   if (origin.empty()) return true;
   const auto scheme = origin.find("://");
   if (scheme != std::string_view::npos && is_same_word(origin.substr(scheme + 3), host)) return true;
-  return std::any_of(origins_.begin(), origins_.end(),
-                     [origin](const std::string& known) { return is_same_word(known, origin); });
+  return std::ranges::any_of(origins_, [origin](const std::string& known) { return is_same_word(known, origin); });
 }
 
 bool is_from_here(std::string_view from, std::string_view host, std::string_view origin) {

@@ -204,9 +204,8 @@ bool Server::make_room() {
   ++counters_.connections_refused;
   // The oldest, whatever it does: a viewer answers pings for as long as it likes, and a connection that is on its
   // way to show the token is among the newest.
-  const auto oldest = std::find_if(clients_.begin(), clients_.end(), [](const auto& client) {
-    return !client->session || !client->session->has_token();
-  });
+  const auto oldest = std::ranges::find_if(
+      clients_, [](const auto& client) { return !client->session || !client->session->has_token(); });
   if (oldest == clients_.end()) return false;
   const auto client = *oldest;
   clients_.erase(oldest);

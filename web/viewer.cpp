@@ -48,8 +48,7 @@ RecordedLog::RecordedLog(const std::filesystem::path& file, const Progress& prog
   read(file, progress);
   if (entries_.empty()) throw record::BadRecording(file.string() + ": the log has no messages to show");
   // Two ports may hand over in the other order than their bytes came.
-  std::stable_sort(entries_.begin(), entries_.end(),
-                   [](const Entry& a, const Entry& b) { return a.time_ns < b.time_ns; });
+  std::ranges::stable_sort(entries_, {}, &Entry::time_ns);
   file_ = base::Descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
 }
 

@@ -158,8 +158,7 @@ std::pair<std::size_t, double> clipped(const std::vector<double>& values) {
   double most = 0;
   for (const double value : values) most = std::max(most, std::abs(value));
   const auto beyond = [&](double share) {
-    return std::count_if(values.begin(), values.end(),
-                         [&](double value) { return std::abs(value) >= most * share; });
+    return std::ranges::count_if(values, [&](double value) { return std::abs(value) >= most * share; });
   };
   const auto at_limit = static_cast<std::size_t>(beyond(1 - kSame));
   const auto beside = static_cast<std::size_t>(beyond(1 - 10 * kSame)) - at_limit;

@@ -90,8 +90,7 @@ Finding jumps_finding(const AuditedLog& log, const RecordedChannel& north) {
         "The fixes have uneven times, so that a velocity does not tell where the next one is due.");
   // The median of a Rayleigh distribution is 1.18 sigma.
   const double limit_m = std::max(kFarFix_m, kJumpSigmas * quantile(misses_m, 0.5) / 1.18);
-  const auto jumps =
-      std::count_if(misses_m.begin(), misses_m.end(), [&](double miss_m) { return miss_m > limit_m; });
+  const auto jumps = std::ranges::count_if(misses_m, [&](double miss_m) { return miss_m > limit_m; });
   const double largest_m = *std::max_element(misses_m.begin(), misses_m.end());
   finding.put_count(static_cast<double>(jumps), "");
   finding.sentence = fmt::format(

@@ -54,16 +54,14 @@ PortKind port_of(std::string_view class_name) {
                                                                          {"DVL", PortKind::dvl},
                                                                          {"MOTOR", PortKind::motor},
                                                                          {"POWER", PortKind::battery}}};
-  return std::find_if(kPorts.begin(), kPorts.end(), [&](const auto& row) { return row.first == class_name; })
-      ->second;
+  return std::ranges::find_if(kPorts, [&](const auto& row) { return row.first == class_name; })->second;
 }
 
 }  // namespace
 
 CsvSamples::Group& CsvSamples::group_of(std::string_view class_name, std::string_view port) {
-  const auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
-    return group.port == port && group.class_name == class_name;
-  });
+  const auto found = std::ranges::find_if(
+      groups_, [&](const Group& group) { return group.port == port && group.class_name == class_name; });
   if (found != groups_.end()) return *found;
   groups_.push_back(
       {std::string(class_name), std::string(port), fmt::format("{} {}", class_name, port), {}, {}, {}});

@@ -86,8 +86,7 @@ std::span<const Field> fields_of(Kind kind) {
 
 std::optional<double> factor_of(const Dimension& dimension, std::string_view unit) {
   if (unit.empty() || &dimension == &kAny) return dimension.unstated;
-  const auto found = std::find_if(dimension.labels.begin(), dimension.labels.end(),
-                                  [&](const Dimension::Label& label) { return label.text == unit; });
+  const auto found = std::ranges::find(dimension.labels, unit, &Dimension::Label::text);
   return found == dimension.labels.end() ? std::nullopt : std::optional(found->factor);
 }
 

@@ -74,8 +74,7 @@ std::string_view until_zero(std::string_view text) {
 }  // namespace
 
 const Column* MessageType::find(std::string_view column) const {
-  const auto found =
-      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == column; });
+  const auto found = std::ranges::find_if(columns, [&](const Column& c) { return c.name == column; });
   return found == columns.end() ? nullptr : &*found;
 }
 

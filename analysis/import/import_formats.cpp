@@ -80,8 +80,7 @@ const ImportFormat* import_format_of(std::string_view head) {
 }
 
 const ImportFormat* import_format_named(std::string_view name) {
-  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
-                                  [&](const ImportFormat& format) { return format.name == name; });
+  const auto found = std::ranges::find(kFormats, name, &ImportFormat::name);
   return found == kFormats.end() ? nullptr : &*found;
 }
 

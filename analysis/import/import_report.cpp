@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "base/enum_name.h"
@@ -22,6 +23,19 @@ std::string words_of_utc(const ImportReport& report) {
     case ImportReport::Utc::unknown: break;
   }
   return "no UTC: times count from boot, which is set to 2000-01-01T00:00:00Z";
+}
+
+/// A row of the table, and its count of messages.
+using CountedRow = std::pair<std::uint64_t, std::string>;
+
+/// Those with most messages where there are too many to read.
+void append_rows(std::string& out, std::vector<CountedRow> rows) {
+  constexpr std::size_t kMostRows = 40;
+  const std::size_t shown = std::min(rows.size(), kMostRows);
+  if (shown < rows.size()) std::ranges::stable_sort(rows, std::greater(), &CountedRow::first);
+  for (std::size_t i = 0; i < shown; ++i) out += rows[i].second;
+  if (shown < rows.size())
+    out += fmt::format("and {} more of at most {} each; --json has all\n", rows.size() - shown, rows[shown].first);
 }
 
 std::string_view key_of(ImportReport::Utc utc) {
@@ -44,13 +58,16 @@ std::string to_text(const ImportReport& report) {
       fmt::format("{}: {}, {} bytes, {:.3f} s\n{}\n\n", base::printable(report.input), report.format, report.bytes,
                   static_cast<double>(report.duration_ns) * 1e-9, words_of_utc(report));
   out += fmt::format("{:<{}}  {:>9}  {:>9}  {}\n", "taken", width, "messages", "rate (Hz)", "port");
+  std::vector<CountedRow> taken_rows, left_rows;
   for (const auto& [of, taken] : report.taken)
-    out += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {}\n", base::printable(of.first), width, taken.messages,
-                       taken.rate_Hz(), of.second);
+    taken_rows.emplace_back(taken.messages, fmt::format("{:<{}}  {:>9}  {:>9.2f}  {}\n", base::printable(of.first),
+                                                        width, taken.messages, taken.rate_Hz(), of.second));
+  append_rows(out, std::move(taken_rows));
   if (report.taken.empty()) out += "nothing\n";
   if (!report.left.empty()) out += fmt::format("\n{:<{}}  {:>9}\n", "left", width, "messages");
   for (const auto& [name, count] : report.left)
-    out += fmt::format("{:<{}}  {:>9}\n", base::printable(name), width, count);
+    left_rows.emplace_back(count, fmt::format("{:<{}}  {:>9}\n", base::printable(name), width, count));
+  append_rows(out, std::move(left_rows));
   if (report.damaged_bytes > 0) out += fmt::format("\n{} damaged bytes were passed over\n", report.damaged_bytes);
   if (report.cut_at)
     out += fmt::format("\nthe file is cut: its last record, at byte {}, is not whole\n", *report.cut_at);

@@ -9,9 +9,9 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <system_error>
 
 #include "base/descriptor.h"
+#include "record/byte_source.h"
 
 namespace navcal::analysis {
 namespace {
@@ -38,7 +38,7 @@ void on_bus_error(int /*signal*/, siginfo_t* info, void* /*context*/) {
 }  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
-  const auto fail = [&](int error) { throw std::system_error(error, std::system_category(), path.string()); };
+  const auto fail = [&](int error) { throw record::UnreadableFile(path, error); };
   const base::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat found {};
   if (!file || ::fstat(file.get(), &found) != 0) fail(errno);

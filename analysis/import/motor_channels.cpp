@@ -66,8 +66,7 @@ bool MotorChannels::has(std::string_view message, std::string_view member) const
   const auto groups = groups_.find(message);
   if (groups == groups_.end()) return false;
   return std::any_of(groups->second.begin(), groups->second.end(), [&](const Group& group) {
-    return std::any_of(group.channels.begin(), group.channels.end(),
-                       [&](const Channel& channel) { return channel.member == member; });
+    return std::ranges::any_of(group.channels, [&](const Channel& channel) { return channel.member == member; });
   });
 }
 

@@ -96,8 +96,7 @@ const CommandType* command_type(std::string_view name) {
                                         type_with_commands<ros2::NumberArray<double>>(),
                                         type_with_commands<ros2::RcOut>(),
                                         type_with_commands<ros2::JointState>()};
-  const auto found = std::find_if(kCommandTypes.begin(), kCommandTypes.end(),
-                                  [&](const CommandType& type) { return type.name == name; });
+  const auto found = std::ranges::find(kCommandTypes, name, &CommandType::name);
   return found == kCommandTypes.end() ? nullptr : &*found;
 }
 

@@ -172,8 +172,7 @@ const MessageType* message_type(std::string_view name) {
                                  type_of<ros2::BatteryState>(PortKind::battery),
                                  type_of<ros2::Range>(PortKind::altimeter),
                                  type_of<ros2::TwistWithCovarianceStamped>(PortKind::dvl)};
-  const auto found =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const MessageType& t) { return t.name == name; });
+  const auto found = std::ranges::find_if(kTypes, [&](const MessageType& t) { return t.name == name; });
   return found == kTypes.end() ? nullptr : &*found;
 }
 

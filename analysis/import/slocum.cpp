@@ -42,6 +42,8 @@ constexpr std::array kActuators{Actuator{"c_ballast_pumped", "ballast", "N", kBu
                                 Actuator{"m_de_oil_vol", "m_de_oil_vol", "N", kBuoyancy_N_cc},
                                 Actuator{"m_battpos", "m_battpos", "m", kInch_m},
                                 Actuator{"m_fin", "m_fin", "rad", 1}};
+/// Commands of the pump of shallow gliders and of that of deep ones. A glider has one of them; it may name both.
+constexpr std::array<std::string_view, 2> kPumps{"c_ballast_pumped", "c_de_oil_vol"};
 
 struct SlocumSensor {
   std::string name, unit;
@@ -108,6 +110,8 @@ class SlocumFile {
   bool read_header();
   bool read_sensors();
   bool read_byte_order();
+  /// Finds the pump that gets fewer commands, where the file has both.
+  void find_idle_pump();
   /// False when the cycle is not whole.
   bool read_cycle();
   [[nodiscard]] double value_at(std::size_t at, std::size_t bytes) const;
@@ -130,6 +134,7 @@ class SlocumFile {
   std::vector<SlocumSensor> sensors_;  ///< in the order of a cycle
   std::size_t state_bytes_ = 0;
   bool is_swapped_ = false;
+  std::string_view idle_pump_;
   std::map<std::string_view, double> fresh_;  ///< new in this cycle, and not yet taken
   std::optional<std::int64_t> time_ns_;
 };
@@ -170,8 +175,7 @@ bool SlocumFile::read_sensors() {
     sensors_[static_cast<std::size_t>(place)] = {
         std::string(words[5]), words.size() > 6 ? std::string(words[6]) : "", static_cast<std::size_t>(bytes)};
   }
-  return std::none_of(sensors_.begin(), sensors_.end(),
-                      [](const SlocumSensor& sensor) { return sensor.bytes == 0; });
+  return std::ranges::none_of(sensors_, [](const SlocumSensor& sensor) { return sensor.bytes == 0; });
 }
 
 /// The cycle of known bytes: 's', 'a', 0x1234, 123.456 as float, 123456789.12345 as double.
@@ -180,6 +184,21 @@ bool SlocumFile::read_byte_order() {
   is_swapped_ = file_[at_ + 2] == '\x12';
   at_ += kKnownBytes;
   return true;
+}
+
+void SlocumFile::find_idle_pump() {
+  const std::size_t first = at_;
+  std::array<int, kPumps.size()> commands{};
+  while (at_ < file_.size() && file_[at_] == 'd' && read_cycle()) {
+    for (std::size_t i = 0; i < kPumps.size(); ++i) commands[i] += fresh_.contains(kPumps[i]) ? 1 : 0;
+  }
+  at_ = first;
+  if (*std::ranges::min_element(commands) == 0) return;
+  const std::size_t used = commands[1] > commands[0] ? 1 : 0;
+  idle_pump_ = kPumps[1 - used];
+  findings_.remarks.push_back(
+      fmt::format("the ballast is {} ({} commands); {} ({}) is that of another pump, and left", kPumps[used],
+                  commands[used], idle_pump_, commands[1 - used]));
 }
 
 double SlocumFile::value_at(std::size_t at, std::size_t bytes) const {
@@ -268,10 +287,10 @@ void SlocumFile::emit_sensors(std::int64_t time_ns) {
     if (found == fresh_.end()) continue;
     const bool is_science = sensor.name.starts_with("sci_"), is_fin = sensor.name == "c_fin";
     Actuator as{sensor.name, std::string_view(sensor.name).substr(is_science ? 4 : 0), sensor.unit, 1};
-    const auto* const actuator = std::find_if(kActuators.begin(), kActuators.end(),
-                                              [&](const Actuator& known) { return known.sensor == sensor.name; });
+    const auto* const actuator = std::ranges::find(kActuators, sensor.name, &Actuator::sensor);
     if (actuator != kActuators.end()) as = *actuator;
-    if ((!is_science && !is_fin && actuator == kActuators.end()) || !std::isfinite(found->second)) {
+    if ((!is_science && !is_fin && actuator == kActuators.end()) || !std::isfinite(found->second) ||
+        sensor.name == idle_pump_) {
       sink_.left(sensor.name);
       continue;
     }
@@ -290,6 +309,7 @@ ImportFindings SlocumFile::read() {
     findings_.cut_at = at_;
     return std::move(findings_);
   }
+  find_idle_pump();
   std::size_t told = 0;
   while (at_ < file_.size() && file_[at_] != 'X') {
     if (file_[at_] != 'd') {

@@ -305,11 +305,9 @@ void UlogFile::subscribe(std::string_view content) {
   subscription.label = subscription.instance == 0
                            ? subscription.name
                            : fmt::format("{}[{}]", subscription.name, subscription.instance);
-  const auto target = std::find_if(kUlogTargets.begin(), kUlogTargets.end(),
-                                   [&](const UlogTarget& t) { return t.message == subscription.name; });
+  const auto target = std::ranges::find(kUlogTargets, subscription.name, &UlogTarget::message);
   if (target != kUlogTargets.end()) subscription.target = &*target;
-  const auto commands = std::find_if(kUlogCommands.begin(), kUlogCommands.end(),
-                                     [&](const UlogCommands& of) { return of.message == subscription.name; });
+  const auto commands = std::ranges::find(kUlogCommands, subscription.name, &UlogCommands::message);
   if (commands != kUlogCommands.end()) subscription.commands = &*commands;
   subscriptions_[little_endian_at<std::uint16_t>(content, 1)] = std::move(subscription);
 }

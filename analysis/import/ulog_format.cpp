@@ -60,8 +60,7 @@ double plain_number(std::string_view type, std::string_view message, std::size_t
 }  // namespace
 
 const UlogField* UlogFormat::find(std::string_view name) const {
-  const auto found =
-      std::find_if(fields.begin(), fields.end(), [&](const UlogField& f) { return f.name == name; });
+  const auto found = std::ranges::find_if(fields, [&](const UlogField& f) { return f.name == name; });
   return found == fields.end() ? nullptr : &*found;
 }
 
@@ -95,8 +94,7 @@ const UlogFormat* UlogFormats::find(const std::string& name, int depth) {
 }
 
 std::optional<std::size_t> UlogFormats::size_of(const std::string& type, int depth) {
-  const auto plain =
-      std::find_if(kPlainTypes.begin(), kPlainTypes.end(), [&](const auto& t) { return t.first == type; });
+  const auto plain = std::ranges::find_if(kPlainTypes, [&](const auto& t) { return t.first == type; });
   if (plain != kPlainTypes.end()) return plain->second;
   const UlogFormat* const nested = find(type, depth + 1);
   return nested != nullptr ? std::optional(nested->size) : std::nullopt;

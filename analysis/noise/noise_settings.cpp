@@ -139,8 +139,7 @@ std::vector<FoundSetting> found_settings(const NoiseReport& report, const config
 
 std::string noise_configuration(const NoiseReport& report, config::Settings settings) {
   const auto found = found_settings(report, settings);
-  if (std::none_of(found.begin(), found.end(), [](const auto& setting) { return setting.value.has_value(); }))
-    return "";
+  if (std::ranges::none_of(found, [](const auto& setting) { return setting.value.has_value(); })) return "";
   std::vector<KeyComment> comments;
   for (const FoundSetting& setting : found) comments.push_back({setting.key, apply(setting, settings)});
   comments.push_back({"imu_turn_on_bias_deg_s", turn_on_comment(report)});

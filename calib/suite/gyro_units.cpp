@@ -61,7 +61,13 @@ class GyroBUnit : public CalibratorUnit {
     pair_.set_calibration(line(in_force.gyro), line(in_force.gyro_b));
   }
   void put_estimate(Correction& into) const override { into.gyro_b = rate_of(gyro_); }
-  [[nodiscard]] Judgement judgement() const override { return gyro_.judgement(); }
+  [[nodiscard]] Judgement judgement() const override {
+    Judgement judgement = gyro_.judgement();
+    if (judgement.accepted || pair_.has_readings()) return judgement;
+    judgement.reason = "no reading of a second yaw gyro so far";
+    judgement.manoeuvre.clear();
+    return judgement;
+  }
   [[nodiscard]] std::vector<Quantity> quantities() const override {
     auto quantities = quantities_of_gyro(gyro_);
     // The disagreement is that of the gyros with their active corrections.

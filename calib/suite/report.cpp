@@ -34,9 +34,12 @@ std::string utc_text(std::int64_t utc_ns) { return utc_ns == 0 ? "an unknown tim
 std::string words_of(const FieldStep& step) {
   const auto& size = step.size_uT;
   const auto& error = step.std_uT;
+  // Else all that is known is that the fits before and after differ.
+  const bool is_clear = (size.array().abs() > 1.96 * error.array()).any();
   std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "the field stepped by (%.2f, %.2f, %.2f) +- (%.2f, %.2f, %.2f) uT at ",
-                size.x(), size.y(), size.z(), error.x(), error.y(), error.z());
+  std::snprintf(text.data(), text.size(), "the field %s by (%.2f, %.2f, %.2f) +- (%.2f, %.2f, %.2f) uT at ",
+                is_clear ? "stepped" : "may have stepped", size.x(), size.y(), size.z(), error.x(), error.y(),
+                error.z());
   return text.data() + utc_text(step.utc_ns) + (step.returned ? ", back to the field before" : "");
 }
 
@@ -47,8 +50,7 @@ const Quantity* CalibratorReport::quantity(std::string_view name) const {
 }
 
 const CalibratorReport* Report::find(Calibrator calibrator) const {
-  const auto found = std::find_if(calibrators.begin(), calibrators.end(),
-                                  [&](const CalibratorReport& report) { return report.calibrator == calibrator; });
+  const auto found = std::ranges::find(calibrators, calibrator, &CalibratorReport::calibrator);
   return found == calibrators.end() ? nullptr : &*found;
 }
 

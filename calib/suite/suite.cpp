@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/suite/suite.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "calib/coverage.h"
@@ -10,8 +11,8 @@ namespace {
 
 /// Readings of the compass from one judgement to the next: each of ten calibrators is judged every 30.
 constexpr std::uint64_t kJudgeEvery = 3;
-/// Readings of the compass without a field after which none will come.
-constexpr std::uint64_t kNoFieldAfter = 50;
+/// Readings of the compass after which those to come will be no better: without a field, or frozen.
+constexpr std::uint64_t kReadingsEnough = 50;
 
 }  // namespace
 
@@ -208,21 +209,26 @@ std::string Suite::silent_instrument(Calibrator calibrator) const {
     return needed && gate_.counts().taken[static_cast<std::size_t>(stream)] == 0;
   };
   const Instruments& needed = row_of(calibrator).needs;
-  if (silent(needed.compass, Stream::compass)) return "the compass";
-  if (silent(needed.rate, Stream::rate)) return "the inertial card";
-  if (silent(needed.ground, Stream::ground)) return "the GPS receiver";
-  if (silent(needed.motor, Stream::motor)) return "the motor card";
+  if (silent(needed.compass, Stream::compass)) return "reading of the compass";
+  if (silent(needed.rate, Stream::rate)) return "reading of the inertial card";
+  if (silent(needed.ground, Stream::ground)) return "fix with a speed over ground";
+  if (silent(needed.motor, Stream::motor)) return "reading of the motor card";
   return {};
 }
 
 void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
   Judgement& judgement = report.judgement;
+  const std::uint64_t compass = gate_.counts().taken[static_cast<std::size_t>(Stream::compass)];
+  const auto& left_out = gate_.counts().left_out[static_cast<std::size_t>(Stream::compass)];
   if (const std::string silent = silent_instrument(report.calibrator); !silent.empty()) {
-    judgement.reason = "no reading of " + silent + " so far";
+    judgement.reason = "no " + silent + " so far";
     judgement.manoeuvre.clear();
-  } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 &&
-             gate_.counts().taken[static_cast<std::size_t>(Stream::compass)] >= kNoFieldAfter) {
-    const auto& left_out = gate_.counts().left_out[static_cast<std::size_t>(Stream::compass)];
+  } else if (!judgement.accepted && row_of(report.calibrator).needs.compass &&
+             2 * left_out[static_cast<std::size_t>(Rejection::frozen)] > std::max(compass, kReadingsEnough)) {
+    judgement.reason =
+        "the readings of the compass stay the same to the last digit: it hangs, or the vehicle lies still";
+    judgement.manoeuvre.clear();
+  } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 && compass >= kReadingsEnough) {
     const bool too_large = left_out[static_cast<std::size_t>(Rejection::field_too_large)] > 0;
     judgement.reason = too_large ? "the measured field is larger than the 500 uT that the Earth and a vehicle make"
                                  : "the compass gives headings without the field that it measures";

@@ -76,7 +76,8 @@ class Suite {
   void forget_field();
   void judge(const TurnedReading& turned);
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
-  /// The first instrument it takes that is configured and has said nothing; empty when all have.
+  /// What is missing of the first instrument it takes that is configured and has said nothing; empty when all
+  /// have.
   [[nodiscard]] std::string silent_instrument(Calibrator calibrator) const;
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
   /// Looks anew whether a calibrator's estimate is accepted.

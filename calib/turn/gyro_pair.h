@@ -33,6 +33,8 @@ class GyroPair {
 
   /// Gyro A less gyro B; nothing before kEnough readings.
   [[nodiscard]] std::optional<double> disagreement_rad_s() const;
+  /// Whether both gyros have said something since the calibration last changed.
+  [[nodiscard]] bool has_readings() const { return readings_ > 0; }
   /// Standard error of the disagreement by scatter alone. The errors of the calibrations are not included.
   [[nodiscard]] double standard_error_rad_s() const;
   void archive(Archive& archive);

@@ -154,10 +154,7 @@ void run(const emulation::EmulateArguments& arguments) {
   try {
     io.run();
     session.finish();
-  } catch (const sim::UnstableVehicle&) {
-    session.finish_after_error();
-    throw;
-  } catch (const sim::UnfitLayout&) {
+  } catch (const std::runtime_error&) {
     session.finish_after_error();
     throw;
   }
@@ -301,7 +298,7 @@ void add_emulate(CLI::App& app) {
     if (vehicle->count() > 0 && !arguments->ordered && arguments->vehicle.empty()) {
       throw base::Failure(base::Exit::usage, "--vehicle: of a mission it needs a file");
     }
-    expect_no_overwriting(
+    expect_results(
         {arguments->path, arguments->mission, arguments->vehicle, arguments->effects_file, arguments->config},
         {arguments->truth, arguments->sent_log});
     if (!arguments->config.empty())

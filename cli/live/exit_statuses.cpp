@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "config/error.h"
+#include "record/byte_source.h"
 #include "record/recording.h"
-#include "sim/path.h"
 
 namespace navcal::cli {
 namespace {
@@ -19,7 +19,7 @@ bool is_one_of(const std::exception& error) {
 
 base::Exit exit_status_of(const std::exception& error) {
   if (const auto* const failure = dynamic_cast<const base::Failure*>(&error)) return failure->status();
-  const bool is_bad_input = is_one_of<record::BadRecording, config::Error, sim::BadPath>(error);
+  const bool is_bad_input = is_one_of<record::BadRecording, config::Error, record::UnreadableFile>(error);
   return is_bad_input ? base::Exit::bad_input : base::Exit::failed;
 }
 

@@ -119,7 +119,11 @@ nlohmann::json ControlLink::ask(const nlohmann::json& request) {
   const auto until = LineSocket::Clock::now() + kControlAnswerLimit;
   const auto line = socket_.next(until);
   if (!line) fail_control(base::Interruptible::interrupted() ? "interrupted" : "navcald does not answer");
-  auto answer = nlohmann::json::parse(*line, nullptr, false);
+  return granted_answer(*line);
+}
+
+nlohmann::json granted_answer(const std::string& line) {
+  auto answer = nlohmann::json::parse(line, nullptr, false);
   if (!answer.is_object()) fail_control("that is no navcald: its answer is no JSON object");
   if (answer.value("ok", false)) return answer;
   fail_control("navcald: " + answer.value("error", std::string("refused")));

@@ -51,6 +51,9 @@ class LineSocket {
 /// Timeout for poll(2); 0 when the time has come.
 [[nodiscard]] int milliseconds_until(LineSocket::Clock::time_point until);
 
+/// Answer of navcald to a request that it has granted. Throws base::Failure with its words when it refuses.
+[[nodiscard]] nlohmann::json granted_answer(const std::string& line);
+
 /// Requests to navcald's control socket, one after the other.
 class ControlLink {
  public:

@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
     // CLI11 has statuses of its own; the contract has one for wrong usage.
     return app.exit(error) == 0 ? static_cast<int>(Exit::success) : static_cast<int>(Exit::usage);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "navcal: %s\n", navcal::base::printable(error.what(), "\n").c_str());
+    std::fprintf(stderr, "navcal: %s\n", navcal::base::printable(error).c_str());
     return static_cast<int>(navcal::cli::exit_status_of(error));
   }
   return static_cast<int>(Exit::success);

@@ -24,6 +24,7 @@
 #include "base/printable.h"
 #include "cli/live/commands.h"
 #include "cli/live/result_file.h"
+#include "config/complaints.h"
 #include "config/network_address.h"
 #include "ports/port.h"
 #include "protocols/mavlink.h"
@@ -152,7 +153,7 @@ struct ParameterChange {
 /// "NAME,VALUE", or QGroundControl's columns: vehicle, component, name, value, type. Shows the comments.
 std::vector<Parameter> read_parameters(const std::string& file) {
   std::vector<Parameter> values;
-  std::istringstream lines(read_file(file));
+  std::istringstream lines(config::content_of(file));
   for (std::string line, skipped; std::getline(lines, line);) {
     const bool has_columns = line.find('\t') != std::string::npos;
     if (!line.starts_with('#')) std::replace(line.begin(), line.end(), ',', ' ');

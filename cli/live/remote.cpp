@@ -3,11 +3,9 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,127 +14,42 @@
 #include "base/failure.h"
 #include "base/interruptible.h"
 #include "base/printable.h"
+#include "base/progress.h"
 #include "cli/live/commands.h"
+#include "cli/live/line_socket.h"
+#include "cli/live/log_link.h"
 #include "cli/live/remote_console.h"
 #include "cli/live/remote_operator.h"
-#include "record/json/base64.h"
-#include "record/log/checksum.h"
+#include "cli/live/result_file.h"
 
 namespace navcal::cli {
 namespace {
 
-using RemoteJson = nlohmann::json;
-
 /// Bytes asked for at once: ten seconds on a link of 2 kB/s.
 constexpr std::uint64_t kRemotePart_bytes = 12288;
-/// Bytes whose checksum the vehicle gives at once.
-constexpr std::uint64_t kRemoteSum_bytes = 4 << 20;
 /// Time for which an answer is awaited on a link that may be dead for a while.
 constexpr double kRemotePatience_s = 600;
 
-[[noreturn]] void fail_remote(const std::string& why) { throw base::Failure(base::Exit::failed, why); }
-
-RemoteJson granted(RemoteOperator& remote, const RemoteJson& request) {
-  RemoteJson answer = RemoteJson::parse(remote.ask(request.dump(), kRemotePatience_s), nullptr, false);
-  if (!answer.is_object()) fail_remote("the vehicle's answer is no JSON object");
-  if (answer.value("ok", false)) return answer;
-  fail_remote("navcald: " + answer.value("error", std::string("refused")));
+LogLink vehicle_logs(RemoteOperator& remote) {
+  return {
+      [&](const nlohmann::json& request) { return granted_answer(remote.ask(request.dump(), kRemotePatience_s)); },
+      kRemotePart_bytes};
 }
 
-struct VehicleLog {
-  std::string name;
-  std::uint64_t bytes = 0;
-};
-
-std::vector<VehicleLog> logs_of(RemoteOperator& remote) {
-  std::vector<VehicleLog> logs;
-  for (bool more = true; more;) {
-    const RemoteJson page =
-        granted(remote, {{"command", "log.list"}, {"after", logs.empty() ? "" : logs.back().name}});
-    for (const RemoteJson& log : page.at("files")) logs.push_back({log.at("name"), log.at("bytes")});
-    more = page.value("more", false) && !page.at("files").empty();
-  }
-  return logs;
+void list_files(RemoteOperator& remote) {
+  for (const RemoteLog& log : vehicle_logs(remote).list())
+    fmt::print("{:>12}  {}\n", log.bytes, base::printable(log.name));
 }
 
-std::uint32_t sum_of_file(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t length) {
-  std::ifstream in(file, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(offset));
-  std::string bytes(length, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(length));
-  if (static_cast<std::uint64_t>(in.gcount()) != length) fail_remote(file.string() + ": cannot be read");
-  return record::crc32(bytes);
-}
-
-/// Compares `bytes` bytes of a file with those of the log, by checksums that the vehicle makes.
-bool is_same(RemoteOperator& remote, const std::string& name, const std::filesystem::path& file,
-             std::uint64_t bytes) {
-  for (std::uint64_t offset = 0; offset < bytes;) {
-    const std::uint64_t length = std::min(kRemoteSum_bytes, bytes - offset);
-    const RemoteJson sum =
-        granted(remote, {{"command", "log.sum"}, {"file", name}, {"offset", offset}, {"length", length}});
-    if (sum.at("length") != length || sum.at("crc32") != sum_of_file(file, offset, length)) return false;
-    offset += length;
-  }
-  return true;
-}
-
-void append_part(RemoteOperator& remote, const std::string& name, const std::filesystem::path& part,
-                 std::uint64_t offset) {
-  const RemoteJson answer = granted(
-      remote, {{"command", "log.read"}, {"file", name}, {"offset", offset}, {"length", kRemotePart_bytes}});
-  const auto bytes = record::from_base64(answer.at("data").get<std::string>());
-  if (!bytes || bytes->empty() || answer.value("crc32", record::crc32(*bytes)) != record::crc32(*bytes))
-    fail_remote(name + ": a part is damaged, or the log has become shorter");
-  std::ofstream out(part, std::ios::binary | std::ios::app);
-  out.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
-  out.close();
-  if (!out) fail_remote(part.string() + ": cannot be written");
-}
-
-/// The vehicle's logs as text, one a line: name and bytes. Throws base::Failure with the vehicle's words.
-std::string list_files(RemoteOperator& remote) {
-  try {
-    std::string out;
-    for (const VehicleLog& log : logs_of(remote)) out += fmt::format("{:>12}  {}\n", log.bytes, log.name);
-    return out;
-  } catch (const RemoteJson::exception& error) {
-    fail_remote(std::string("the vehicle's list of logs cannot be read: ") + error.what());
-  }
-}
-
-/// Copies a log. What has come is in `target`.part, from where the next call goes on; the file gets its name when
-/// it is whole and its checksum is right. Throws base::Failure with the reason.
+/// Also the log that is being written, as far as it is there.
 void get_file(RemoteOperator& remote, const std::string& name, const std::filesystem::path& target) {
-  try {
-    const auto logs = logs_of(remote);
-    const auto found =
-        std::find_if(logs.begin(), logs.end(), [&](const VehicleLog& log) { return log.name == name; });
-    if (found == logs.end()) throw base::Failure(base::Exit::bad_input, name + ": the vehicle has no such log");
-    if (name.find('/') != std::string::npos) fail_remote(name + ": not the name of a log");
-    if (std::filesystem::exists(target)) fail_remote(target.string() + ": is there already");
-    const std::filesystem::path part = target.string() + ".part";
-    std::error_code error;
-    std::uint64_t bytes = std::filesystem::file_size(part, error);
-    if (error) bytes = 0;
-    if (bytes > found->bytes || (bytes > 0 && !is_same(remote, name, part, bytes))) {
-      fmt::print(stderr, "navcal remote: {} belongs to another log, and begins anew\n", part.string());
-      std::filesystem::remove(part);
-      bytes = 0;
-    }
-    while (bytes < found->bytes) {
-      append_part(remote, name, part, bytes);
-      bytes = std::filesystem::file_size(part);
-      fmt::print(stderr, "\rnavcal remote: {} of {} bytes", bytes, found->bytes);
-    }
-    fmt::print(stderr, "\n");
-    if (found->bytes == 0) std::ofstream(part).close();
-    if (bytes > found->bytes) std::filesystem::resize_file(part, found->bytes);
-    if (!is_same(remote, name, part, found->bytes)) fail_remote(part.string() + ": the checksum is wrong");
-    std::filesystem::rename(part, target);
-  } catch (const RemoteJson::exception& error) {
-    fail_remote(name + ": the vehicle's answer cannot be read: " + error.what());
-  }
+  expect_new(target);
+  LogLink link = vehicle_logs(remote);
+  const RemoteLog log = link.wanted({name}).front();
+  base::Progress progress("remote get");
+  fetch_log(link, log, target, [&](std::uint64_t bytes) {
+    progress.show(base::printable(name), static_cast<double>(bytes) / static_cast<double>(log.bytes));
+  });
 }
 
 using RemoteClock = RemoteOperator::Clock;
@@ -231,7 +144,7 @@ void run_remote(const RemoteCommandOptions& options) {
   if (options.action.empty()) return drive_by_hand(remote, options);
   remote.wait_for_session(options.wait_s);
   if (options.action == "ls") {
-    fmt::print("{}", base::printable(list_files(remote), "\n"));
+    list_files(remote);
   } else if (options.action == "get") {
     get_file(remote, options.argument, options.output.empty() ? options.argument : options.output);
   } else if (options.action == "stop") {

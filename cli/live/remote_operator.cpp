@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/failure.h"
 #include "base/interruptible.h"
 #include "cli/live/line_socket.h"
 #include "ports/finder.h"
@@ -77,7 +78,11 @@ link::EndOptions end_of_operator(const RemoteOperator::Options& options) {
   link::EndOptions end;
   end.budget_B_s = options.budget_B_s;
   if (options.key_file.empty()) return end;
-  end.key = link::Key::from_file(options.key_file);
+  try {
+    end.key = link::Key::from_file(options.key_file);
+  } catch (const std::runtime_error& error) {
+    throw base::Failure(base::Exit::bad_input, error.what());
+  }
   return end;
 }
 

@@ -8,8 +8,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "base/output.h"
@@ -46,7 +44,7 @@ void expect_folder_of(const fs::path& file) {
   }
 }
 
-void expect_no_overwriting(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+void expect_no_overwriting(const Paths& inputs, const Paths& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (!is_file_name(outputs[i])) continue;
     for (const fs::path& input : inputs) {
@@ -67,7 +65,12 @@ void expect_no_overwriting(const std::vector<fs::path>& inputs, const std::vecto
   }
 }
 
-void expect_results(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+Paths all_paths(std::initializer_list<std::vector<std::string>> repeatable, Paths others) {
+  for (const auto& files : repeatable) others.insert(others.end(), files.begin(), files.end());
+  return others;
+}
+
+void expect_results(const Paths& inputs, const Paths& outputs) {
   expect_no_overwriting(inputs, outputs);
   for (const fs::path& output : outputs) {
     if (is_file_name(output)) expect_folder_of(output);
@@ -86,13 +89,18 @@ void write_result(const fs::path& file, std::string_view content) {
   whole.commit();
 }
 
+void expect_new(const fs::path& file, std::string_view hint) {
+  std::error_code error;
+  if (file.empty() || !fs::exists(fs::symlink_status(file, error))) return;
+  throw base::Failure(base::Exit::failed,
+                      fmt::format("{}: the file exists and is not overwritten{}", file.string(), hint));
+}
+
 void write_new(const fs::path& file, const std::string& text) {
-  const auto refused = [&](const std::string& why) {
-    return base::Failure(base::Exit::usage, file.string() + ": " + why);
-  };
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0)
-    throw refused(errno == EEXIST ? "it is there already, and is not written over" : std::strerror(errno));
+  if (descriptor < 0 && errno == EEXIST)
+    throw base::Failure(base::Exit::usage, file.string() + ": it is there already, and is not written over");
+  if (descriptor < 0) throw std::system_error(errno, std::system_category(), file.string());
   std::FILE* const out = ::fdopen(descriptor, "w");
   const bool written = std::fputs(text.c_str(), out) >= 0;
   if (std::fclose(out) != 0 || !written)
@@ -112,14 +120,6 @@ void give_answer(const std::string& json_file, const std::string& json, std::str
 
 void tell_remarks(std::string_view command, const std::vector<std::string>& remarks) {
   for (const auto& remark : remarks) fmt::print(stderr, "{}: {}\n", command, base::printable(remark));
-}
-
-std::string read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::system_error(errno, std::system_category(), file.string());
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw std::system_error(errno, std::system_category(), file.string());
-  return text;
 }
 
 }  // namespace navcal::cli

@@ -30,14 +30,17 @@ auto run_log_job(Job job) {
 /// to be written is missing or not writable.
 void expect_folder_of(const std::filesystem::path& file);
 
+using Paths = std::vector<std::filesystem::path>;
+
 /// Throws Failure (usage) when a file to be written is one of the files to be read, or another file to be written:
 /// writing it would destroy what the user has. Links are followed. Empty names and "-" are passed over.
-void expect_no_overwriting(const std::vector<std::filesystem::path>& inputs,
-                           const std::vector<std::filesystem::path>& outputs);
+void expect_no_overwriting(const Paths& inputs, const Paths& outputs);
+
+/// The files of options that may be repeated, and others.
+[[nodiscard]] Paths all_paths(std::initializer_list<std::vector<std::string>> repeatable, Paths others);
 
 /// Both checks; of outputs, empty names and "-" are passed over.
-void expect_results(const std::vector<std::filesystem::path>& inputs,
-                    const std::vector<std::filesystem::path>& outputs);
+void expect_results(const Paths& inputs, const Paths& outputs);
 
 /// Throws Failure (usage) when the name of an output ends like another kind of file. `kind` says what the file
 /// will be, with its usual ending: "a capture (.cap)"; `hint` says how to get the other kind.
@@ -47,8 +50,11 @@ void expect_not_ending(const std::filesystem::path& output, std::string_view end
 /// Whole or not at all. Throws std::system_error.
 void write_result(const std::filesystem::path& file, std::string_view content);
 
+/// Throws Failure when a file, or a link, has this name: people may depend on it. `hint` says what replaces it.
+void expect_new(const std::filesystem::path& file, std::string_view hint = {});
+
 /// Writes a new file. Throws Failure when one is there already (usage), which is never written over, or when it
-/// cannot be written.
+/// cannot be written, or std::system_error.
 void write_new(const std::filesystem::path& file, const std::string& text);
 
 /// Text on standard output, printable. Throws Failure when it cannot be written.
@@ -59,8 +65,5 @@ void give_answer(const std::string& json_file, const std::string& json, std::str
 
 /// Lines on standard error, each with the name of the command before it.
 void tell_remarks(std::string_view command, const std::vector<std::string>& remarks);
-
-/// Content of a file. Throws std::system_error, which names the file.
-[[nodiscard]] std::string read_file(const std::filesystem::path& file);
 
 }  // namespace navcal::cli

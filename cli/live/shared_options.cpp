@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "base/failure.h"
 #include "cli/live/option_kinds.h"
@@ -24,7 +25,12 @@ record::TimeWindow WindowOptions::window() const {
                                                  "2026-01-01T00:00:12Z");
     return found;
   };
-  return {bound("--from", from), bound("--to", to)};
+  const record::TimeWindow window{bound("--from", from), bound("--to", to)};
+  const auto& [begin, end] = window;
+  if (begin && end && begin->utc_ns.has_value() == end->utc_ns.has_value() &&
+      std::pair(begin->utc_ns, begin->since_start_s) >= std::pair(end->utc_ns, end->since_start_s))
+    throw base::Failure(base::Exit::usage, fmt::format("--from {} is not before --to {}", from, to));
+  return window;
 }
 
 void add_window(CLI::App& command, WindowOptions& options, const std::string& from_otherwise) {

@@ -15,7 +15,7 @@ namespace navcal::cli {
 /// --from and --to as they were given.
 struct WindowOptions {
   std::string from, to;
-  /// Throws base::Failure (usage) for what is no time.
+  /// Throws base::Failure (usage) for what is no time, and where none lies between both.
   [[nodiscard]] record::TimeWindow window() const;
 };
 void add_window(CLI::App& command, WindowOptions& options, const std::string& from_otherwise = {});

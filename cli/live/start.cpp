@@ -22,6 +22,7 @@
 #include "cli/live/result_file.h"
 #include "cli/live/start_plan.h"
 #include "cli/live/watch_stream.h"
+#include "config/complaints.h"
 #include "config/load.h"
 #include "ports/finder.h"
 #include "ports/holder.h"
@@ -102,7 +103,7 @@ class OwnProgram {
 void write_configuration(const StartPlan& plan) {
   const std::string file = plan.configuration.string();
   const bool is_there = std::filesystem::exists(std::filesystem::symlink_status(file));
-  if (is_there && read_file(file) != plan.toml)
+  if (is_there && config::content_of(file) != plan.toml)
     fail_start(
         fmt::format("{}: the file is there with other content and is not written over. `navcald --config {}` "
                     "runs it as it is; --output FILE writes another one",

@@ -119,8 +119,7 @@ void WatchCalibration::take_calibrator(const Json& calibrator) {
   std::string name = text(calibrator, "calibrator");
   if (name.empty()) return;  // no later report could replace it
   const auto place = calibrators_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, calibrators_.size()));
-  const auto found =
-      std::find_if(calibrators_.begin(), calibrators_.end(), [&](const auto& one) { return one.first == name; });
+  const auto found = std::ranges::find_if(calibrators_, [&](const auto& one) { return one.first == name; });
   if (found == calibrators_.end()) {
     calibrators_.insert(place, {std::move(name), calibrator});
   } else {

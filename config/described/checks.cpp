@@ -48,8 +48,7 @@ class FrameCheck {
 
  private:
   void complain(const Node& table, std::string_view key, std::string message) {
-    const auto found = std::find_if(table.children.begin(), table.children.end(),
-                                    [&](const Node& child) { return child.key == key; });
+    const auto found = std::ranges::find(table.children, key, &Node::key);
     problems_.push_back({found != table.children.end() ? found->line : table.line,
                          fmt::format("{}.{}", table.name, key), std::move(message)});
   }

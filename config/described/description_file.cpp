@@ -41,8 +41,7 @@ std::vector<std::string> read_start_up(TableReader& table) {
 }
 
 unsigned line_of_id(const Node& frame) {
-  const auto id = std::find_if(frame.children.begin(), frame.children.end(),
-                               [](const Node& child) { return child.key == "id"; });
+  const auto id = std::ranges::find_if(frame.children, [](const Node& child) { return child.key == "id"; });
   return id != frame.children.end() ? id->line : frame.line;
 }
 

@@ -35,8 +35,7 @@ std::optional<std::string> bytes_of_hex(std::string_view text) {
 
 const Node* TableReader::find(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
-  const auto found = std::find_if(table_.children.begin(), table_.children.end(),
-                                  [&](const Node& child) { return child.key == key; });
+  const auto found = std::ranges::find(table_.children, key, &Node::key);
   return found == table_.children.end() ? nullptr : &*found;
 }
 
@@ -94,9 +93,7 @@ std::optional<std::int64_t> TableReader::whole(std::string_view key, std::int64_
 std::optional<std::string> TableReader::choice(std::string_view key, const std::vector<std::string>& known) {
   auto word = text(key);
   if (!word || std::find(known.begin(), known.end(), *word) != known.end()) return word;
-  const std::string guess = suggestion(*word, known);
-  complain(key, fmt::format("unknown {} {}{}{}", key, to_toml_text(*word), guess.empty() ? "; known: " : guess,
-                            guess.empty() ? fmt::format("{}", fmt::join(known, ", ")) : ""));
+  complain(key, fmt::format("unknown {} {}{}", key, to_toml_text(*word), suggestion_or_all(*word, known)));
   return std::nullopt;
 }
 
@@ -155,9 +152,7 @@ std::optional<char> TableReader::character(std::string_view key) {
 void TableReader::finish() {
   for (const Node& child : table_.children) {
     if (std::find(known_.begin(), known_.end(), child.key) != known_.end()) continue;
-    std::string guess = suggestion(child.key, known_);
-    if (guess.empty()) guess = fmt::format("; known: {}", fmt::join(known_, ", "));
-    problems_.push_back({child.line, child.name, "unknown key" + guess});
+    problems_.push_back({child.line, child.name, "unknown key" + suggestion_or_all(child.key, known_)});
   }
 }
 

@@ -55,8 +55,7 @@ void LayoutTable::uncertainty(std::string_view key, const Bounds& bounds, std::s
   const std::string std_key = fmt::format("{}_std", key), range_key = fmt::format("{}_range", key);
   // Asked for only where they stand: messages about unknown keys list what was asked for.
   const auto stands = [&](const std::string& name) {
-    return std::any_of(table_.children.begin(), table_.children.end(),
-                       [&](const Node& child) { return child.key == name; });
+    return std::ranges::any_of(table_.children, [&](const Node& child) { return child.key == name; });
   };
   const Bounds of_std{0, bounds.high - bounds.low, bounds.unit};
   if (stands(std_key)) {
@@ -198,8 +197,8 @@ void LayoutTable::read_identity(std::string& name, std::string& channel, bool ne
 void LayoutTable::command(LayoutThruster& thruster) {
   const auto given = reader_.choice("command", {"rpm", "percent", "us"});
   reader_.require("command", "unit of the command: rpm, percent or us");
-  const auto found = std::find_if(kCommandUnits.begin(), kCommandUnits.end(),
-                                  [&](const CommandUnitRow& row) { return row.name == given; });
+  const auto found =
+      std::ranges::find_if(kCommandUnits, [&](const CommandUnitRow& row) { return row.name == given; });
   const CommandUnitRow& row = found != kCommandUnits.end() ? *found : kCommandUnits.front();
   thruster.unit = row.unit;
   thruster.low = row.low;

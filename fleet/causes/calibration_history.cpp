@@ -121,8 +121,7 @@ std::string_view name_of(CalibrationCourse course) {
 }
 
 void judge_course(CalibrationHistory& history) {
-  std::stable_sort(history.points.begin(), history.points.end(),
-                   [](const CalibrationPoint& a, const CalibrationPoint& b) { return a.utc_ns < b.utc_ns; });
+  std::ranges::stable_sort(history.points, {}, &CalibrationPoint::utc_ns);
   history.course = CalibrationCourse::too_few;
   if (history.points.size() < kLeastPoints) return;
   Course course = best_course(history.points, 0);

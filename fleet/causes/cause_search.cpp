@@ -175,8 +175,7 @@ class CauseSearch {
         found.alternatives.push_back({*of.most, of.share / sum});
       }
     }
-    std::stable_sort(found.alternatives.begin(), found.alternatives.end(),
-                     [](const Alternative& a, const Alternative& b) { return a.probability > b.probability; });
+    std::ranges::stable_sort(found.alternatives, std::ranges::greater(), &Alternative::probability);
   }
 
   const PooledMissions& missions_;

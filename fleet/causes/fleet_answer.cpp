@@ -109,10 +109,9 @@ std::vector<bool> imitating(const PooledMissions& missions, const std::vector<Fo
   };
   std::vector<bool> imitate;
   for (const FoundCause& cause : causes) {
-    imitate.push_back(!is_backlash(cause) &&
-                      std::any_of(causes.begin(), causes.end(), [&](const FoundCause& other) {
-                        return is_backlash(other) && imitates(cause, other);
-                      }));
+    imitate.push_back(!is_backlash(cause) && std::ranges::any_of(causes, [&](const FoundCause& other) {
+      return is_backlash(other) && imitates(cause, other);
+    }));
   }
   return imitate;
 }

@@ -57,8 +57,7 @@ PooledEvidence::Column PooledEvidence::column(Eigen::Index first, Eigen::Index c
   Column made{first, count, std::move(missions), {}, prior, 0};
   for (const std::size_t m : made.missions) {
     const std::size_t vehicle = missions_.vehicle_of(m);
-    auto found = std::find_if(made.white.begin(), made.white.end(),
-                              [&](const auto& each) { return each.first == vehicle; });
+    auto found = std::ranges::find_if(made.white, [&](const auto& each) { return each.first == vehicle; });
     if (found == made.white.end()) {
       found = made.white.insert(found, {vehicle, Eigen::MatrixXd::Zero(missions_.size(), count)});
     }

@@ -62,9 +62,8 @@ void set_days(std::vector<FleetMission>& missions) {
       continue;
     }
     auto& waters = dates[base::utc_date_text(*of.utc_ns)];
-    auto found = std::find_if(waters.begin(), waters.end(), [&](const Water& water) {
-      return distance_m(water.place, *of.place) < kSameWater_m;
-    });
+    auto found = std::ranges::find_if(
+        waters, [&](const Water& water) { return distance_m(water.place, *of.place) < kSameWater_m; });
     if (found == waters.end()) found = waters.insert(found, {*of.place, {}});
     found->missions.push_back(&mission);
   }

@@ -52,8 +52,7 @@ void fill_silences(std::vector<Reading>& readings, const std::vector<Reading>& p
     });
     if (needed) readings.push_back(part);
   }
-  std::stable_sort(readings.begin(), readings.end(),
-                   [](const Reading& a, const Reading& b) { return a.time_s < b.time_s; });
+  std::ranges::stable_sort(readings, {}, &Reading::time_s);
 }
 
 template <class Reading>
@@ -103,8 +102,7 @@ bool Mission::is_silent(Quantity quantity, double time_s) const {
 }
 
 bool Mission::is_silent(Quantity quantity) const {
-  return std::any_of(silences.begin(), silences.end(),
-                     [&](const Silence& silence) { return silence.quantity == quantity; });
+  return std::ranges::any_of(silences, [&](const Silence& silence) { return silence.quantity == quantity; });
 }
 
 void Mission::take_order_times() {
@@ -357,7 +355,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
                                           file.string(), mission.distorted));
   }
   for (std::string& remark : ports.remarks(file.string())) mission.remarks.push_back(std::move(remark));
-  for (const auto& remark : recording->remarks()) mission.remarks.push_back(file.string() + ": " + remark);
+  mission.remarks.insert(mission.remarks.end(), recording->remarks().begin(), recording->remarks().end());
   return mission;
 }
 

@@ -111,8 +111,7 @@ void add_empty_frames(Mission& mission) {
     }
   }
   mission.card.insert(mission.card.end(), frames.begin(), frames.end());
-  std::stable_sort(mission.card.begin(), mission.card.end(),
-                   [](const CardReading& a, const CardReading& b) { return a.time_s < b.time_s; });
+  std::ranges::stable_sort(mission.card, {}, &CardReading::time_s);
 }
 
 /// What is silent when all of these quantities are, as people call it. The first that fits counts.

@@ -120,8 +120,7 @@ struct WeighedSet {
 std::vector<WeighedSet> sets_of(const Study& study) {
   std::vector<WeighedSet> sets;
   const auto add = [&](const EffectSubset& effects, double probability) {
-    const bool there =
-        std::any_of(sets.begin(), sets.end(), [&](const WeighedSet& set) { return set.effects == effects; });
+    const bool there = std::ranges::any_of(sets, [&](const WeighedSet& set) { return set.effects == effects; });
     if (!there && sets.size() < kMostSets) sets.push_back({effects, probability});
   };
   for (const Candidate& candidate : study.found->found.candidates) {

@@ -204,8 +204,7 @@ SearchResult SubsetSearch::rank() {
       result.candidates.push_back({subset, score - none, probability});
     }
   }
-  std::sort(result.candidates.begin(), result.candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.log_odds > b.log_odds; });
+  std::ranges::sort(result.candidates, std::ranges::greater(), &Candidate::log_odds);
   result.best = std::move(best_);
   result.best.log_odds -= none;
   return result;

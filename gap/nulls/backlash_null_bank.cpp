@@ -75,8 +75,7 @@ BacklashNull simulate_backlash_null(const ModelFit& found, const RepeatedMission
 }  // namespace
 
 bool has_backlash(const Library& library, const EffectSubset& effects) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [&](std::size_t effect) { return library.is_backlash(effect); });
+  return std::ranges::any_of(effects, [&](std::size_t effect) { return library.is_backlash(effect); });
 }
 
 BacklashNullBank backlash_null_bank(const ModelFit& found, const RepeatedMission& repeated,

@@ -113,9 +113,8 @@ Eigen::Vector3d ReplayRun::first_attitude(const CardReading& reading) const {
     const double heading_rad = word->heading_rad.value_or(heading_of(word->field_uT, roll_rad, pitch_rad));
     if (std::isfinite(heading_rad)) return {roll_rad, pitch_rad, heading_rad + variation_rad};
   }
-  const auto fix = std::find_if(mission.fixes.begin(), mission.fixes.end(), [&](const FixReading& each) {
-    return each.time_s >= reading.time_s && each.velocity_m_s;
-  });
+  const auto fix = std::ranges::find_if(
+      mission.fixes, [&](const FixReading& each) { return each.time_s >= reading.time_s && each.velocity_m_s; });
   if (fix == mission.fixes.end()) return {roll_rad, pitch_rad, 0};
   return {roll_rad, pitch_rad, std::atan2((*fix->velocity_m_s)[1], (*fix->velocity_m_s)[0])};
 }

@@ -30,8 +30,7 @@ void StateHistory::correct(const sim::Vector3& euler_rad, const sim::Vector3& po
 }
 
 sim::State StateHistory::filtered_at(double time_s) const {
-  const auto later = std::lower_bound(moments_.begin(), moments_.end(), time_s,
-                                      [](const Moment& moment, double t) { return moment.time_s < t; });
+  const auto later = std::ranges::lower_bound(moments_, time_s, {}, &Moment::time_s);
   if (later == moments_.begin()) return moments_.front().predicted;
   if (later == moments_.end()) return moments_.back().corrected;
   const Moment& earlier = *std::prev(later);

@@ -175,9 +175,8 @@ std::vector<Series> series_for(const SourcesTogether& sources, std::span<const C
                                CovariateSet set) {
   std::vector<Series> series;
   for (std::size_t k = 0; k < covariates.size(); ++k) {
-    const bool serves = std::any_of(sources.begin(), sources.end(), [&](const ErrorSource* source) {
-      return may_follow(*source, covariates[k], set);
-    });
+    const bool serves = std::ranges::any_of(
+        sources, [&](const ErrorSource* source) { return may_follow(*source, covariates[k], set); });
     if (serves) series.push_back({k, std::make_shared<const Eigen::VectorXd>(covariates[k].values)});
   }
   return series;
@@ -285,8 +284,7 @@ std::vector<SourceFit> SourceEvidence::ranked(std::span<const ErrorSource* const
     progress(static_cast<double>(i) / static_cast<double>(groups.size()));
     for (auto& path : paths_of(groups[i], CovariateSet::basic)) fits.push_back(std::move(path.back()));
   }
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const SourceFit& a, const SourceFit& b) { return a.gain_nats > b.gain_nats; });
+  std::ranges::stable_sort(fits, std::ranges::greater(), &SourceFit::gain_nats);
   return fits;
 }
 

@@ -37,8 +37,7 @@ std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found,
       all.push_back({std::string(library[other].name), tie_breaker(library[effect], library[other]), left});
     }
   }
-  std::sort(all.begin(), all.end(),
-            [](const Confusion& a, const Confusion& b) { return a.separation_nats < b.separation_nats; });
+  std::ranges::sort(all, {}, &Confusion::separation_nats);
   return all;
 }
 
@@ -192,7 +191,8 @@ void write_unknown(UnknownKind kind, std::string_view reason, Diagnosis& answer)
   answer.kind = kind;
   std::vector<std::string> sets;
   for (const Alternative& each : answer.alternatives) {
-    const std::string closed = each.closed ? fmt::format(", {:.0f} % closed", 100 * *each.closed) : "";
+    const std::string closed =
+        each.closed ? fmt::format(", {:.0f} % closed", 100 * std::min(1.0, *each.closed)) : "";
     sets.push_back(fmt::format("{} (probability {:.2f}{})", words_of(each), each.probability, closed));
   }
   switch (kind) {

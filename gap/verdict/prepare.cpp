@@ -68,8 +68,9 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
   (void)prepared->replay->run(library_.model(prepared->at), &prepared->course);
   find_bank(*prepared, name, answer);
   if (prepared->bank.missions < kLeastNulls) {
-    answer.remarks.push_back(name +
-                             ": no simulated vehicle could follow this mission, so nothing can be compared");
+    answer.remarks.push_back(
+        fmt::format("{}: {} of {} simulated vehicles could follow this mission, and {} are needed to compare it",
+                    name, prepared->bank.missions, request_.bank_missions, kLeastNulls));
     return nullptr;
   }
   return prepared;

@@ -60,8 +60,7 @@ SourceFinding finding_of(const SourceFit& fit, const std::vector<Covariate>& cov
 }
 
 const ErrorSource& source_named(std::string_view name) {
-  return *std::find_if(error_sources().begin(), error_sources().end(),
-                       [&](const ErrorSource& source) { return source.name == name; });
+  return *std::ranges::find(error_sources(), name, &ErrorSource::name);
 }
 
 /// Shows how far the search for the source is.
@@ -207,8 +206,7 @@ void sort_by_gain(Diagnosis& answer) {
   for (SourceFinding& finding : answer.sources) {
     const auto is_among = [&](const std::vector<WhereEntry>& cells) {
       return std::any_of(finding.errors.begin(), finding.errors.end(), [&](const ErrorFinding& error) {
-        return std::any_of(cells.begin(), cells.end(),
-                           [&](const WhereEntry& cell) { return cell.channel == error.channel; });
+        return std::ranges::any_of(cells, [&](const WhereEntry& cell) { return cell.channel == error.channel; });
       });
     };
     finding.closes_nothing = !answer.where.empty() && is_among(answer.map) && !is_among(answer.where);

@@ -60,8 +60,7 @@ void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
 bool add_held_out(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
   const auto& gains_nats = grounds.held_out_nats;
   const double altogether = std::accumulate(gains_nats.begin(), gains_nats.end(), 0.0);
-  const auto worse =
-      std::count_if(gains_nats.begin(), gains_nats.end(), [](double nats) { return nats < kHoldoutLoss_nats; });
+  const auto worse = std::ranges::count_if(gains_nats, [](double nats) { return nats < kHoldoutLoss_nats; });
   if (worse == 0 && altogether >= kHoldoutGain_nats) return false;
   const std::string_view parts = grounds.blocks ? "blocks of it that were left out" : "missions held out";
   reasons.push_back(worse == 0
@@ -88,8 +87,7 @@ std::string closure_words(const PooledClosure& closure, const std::string& set) 
 void add_rivals(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
   const auto& best = grounds.found.best;
   const auto& candidates = grounds.found.candidates;
-  const auto first = std::find_if(candidates.begin(), candidates.end(),
-                                  [&](const Candidate& candidate) { return candidate.effects == best.effects; });
+  const auto first = std::ranges::find(candidates, best.effects, &Candidate::effects);
   const double probability = first != candidates.end() ? first->probability : 0;
   if (probability < kNamedFrom || rivals_of(best.effects, candidates) > kMostRivals) {
     std::string others;
@@ -157,8 +155,7 @@ Judgement judge(const Grounds& grounds) {
   const auto none = std::find_if(candidates.begin(), candidates.end(),
                                  [](const Candidate& candidate) { return candidate.effects.empty(); });
   const bool may_be_none = none != candidates.end() && none->probability > kNoGapBelow;
-  const bool nothing_seen =
-      grounds.where.empty() && std::none_of(grounds.leftover.begin(), grounds.leftover.end(), is_left);
+  const bool nothing_seen = grounds.where.empty() && std::ranges::none_of(grounds.leftover, is_left);
   if (!reasons.empty() && may_be_none && nothing_seen) {
     return {Verdict::no_gap, {}};
   }

@@ -112,8 +112,7 @@ std::vector<WhereEntry> residual_map(const Eigen::MatrixXd& explained_rms, const
       ranked.push_back({std::move(entry), excess});
     }
   }
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const Ranked& a, const Ranked& b) { return a.excess > b.excess; });
+  std::ranges::stable_sort(ranked, std::ranges::greater(), &Ranked::excess);
   std::vector<WhereEntry> map;
   map.reserve(ranked.size());
   for (Ranked& each : ranked) map.push_back(std::move(each.entry));

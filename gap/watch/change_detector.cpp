@@ -126,8 +126,7 @@ std::vector<ChangeDetector::Cause> ChangeDetector::causes() const {
   for (const auto& [effect, sum] : sums) {
     causes.push_back({effect, log_total > kMinusInfinity ? std::exp(sum.log_all - log_total) : 0, sum.onset});
   }
-  std::stable_sort(causes.begin(), causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(causes, std::ranges::greater(), &Cause::probability);
   return causes;
 }
 
@@ -143,8 +142,7 @@ Eigen::VectorXd ChangeDetector::mean_with(const Cause& cause) const {
 
 Eigen::VectorXd ChangeDetector::mean_with_all() const {
   const std::uint64_t onset = causes().front().onset;
-  const auto since =
-      std::find_if(onsets_.begin(), onsets_.end(), [&](const State::Onset& one) { return one.window == onset; });
+  const auto since = std::ranges::find_if(onsets_, [&](const State::Onset& one) { return one.window == onset; });
   Eigen::VectorXd prior = spike_;
   for (const Eigen::Index j : parameter_indices(library_, effects_)) {
     prior[j] = library_.unknowns()[static_cast<std::size_t>(j)].typical;

@@ -295,7 +295,7 @@ RecordedMotion load_motion(const std::filesystem::path& file, const std::functio
     motion.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
   motion.ordered_fins_rad = std::move(ordered_fins_rad);
   for (std::string& remark : ports.remarks(motion.name)) motion.remarks.push_back(std::move(remark));
-  for (const auto& remark : recording->remarks()) motion.remarks.push_back(motion.name + ": " + remark);
+  motion.remarks.insert(motion.remarks.end(), recording->remarks().begin(), recording->remarks().end());
   return motion;
 }
 

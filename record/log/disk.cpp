@@ -134,7 +134,7 @@ class FileSource final : public ByteSource {
     for (;;) {
       const ssize_t got = ::read(fd_.get(), to, n);
       if (got >= 0) return static_cast<std::size_t>(got);
-      if (errno != EINTR) throw std::system_error(base::last_error(), name_);
+      if (errno != EINTR) throw UnreadableFile(name_);
     }
   }
   [[nodiscard]] std::uint64_t size() const override { return size_; }
@@ -150,10 +150,8 @@ class FileSource final : public ByteSource {
 std::unique_ptr<ByteSource> open_file(const std::filesystem::path& file) {
   base::Descriptor fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status {};
-  if (!fd || ::fstat(fd.get(), &status) != 0) throw std::system_error(base::last_error(), file.string());
-  if (S_ISDIR(status.st_mode)) {
-    throw std::system_error(std::make_error_code(std::errc::is_a_directory), file.string());
-  }
+  if (!fd || ::fstat(fd.get(), &status) != 0) throw UnreadableFile(file);
+  if (S_ISDIR(status.st_mode)) throw UnreadableFile(file, EISDIR);
   const std::uint64_t size = S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : kUnknownSize;
   return std::make_unique<FileSource>(std::move(fd), size, file.string());
 }

@@ -166,8 +166,7 @@ std::optional<Simulator> simulator_named(std::string_view name) {
 }
 
 Representation representation_of(std::string_view effect, Simulator simulator) {
-  const auto row = std::find_if(kRepresentations.begin(), kRepresentations.end(),
-                                [&](const RepresentationRow& one) { return one.effect == effect; });
+  const auto row = std::ranges::find(kRepresentations, effect, &RepresentationRow::effect);
   if (row != kRepresentations.end()) return row->in[static_cast<std::size_t>(simulator)];
   const auto known = sim::make_effect(effect);
   if (known && known->description().place == sim::EffectPlace::lines)

@@ -77,8 +77,7 @@ Transfer::Transfer(const gap::Diagnosis& diagnosis, Simulator simulator) : simul
 }
 
 const TransferredEffect* Transfer::find(std::string_view name) const {
-  const auto found =
-      std::find_if(effects_.begin(), effects_.end(), [&](const auto& effect) { return effect.name() == name; });
+  const auto found = std::ranges::find_if(effects_, [&](const auto& effect) { return effect.name() == name; });
   return found == effects_.end() ? nullptr : &*found;
 }
 

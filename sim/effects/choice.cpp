@@ -74,8 +74,7 @@ std::string unknown_effect(std::string_view name, bool of_layout) {
     std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
   }
-  return fmt::format("there is no such effect{}. Known are: {}", config::suggestion(name, known),
-                     fmt::join(known, ", "));
+  return "there is no such effect" + config::suggestion_or_all(name, known);
 }
 
 std::string effects_text() {

@@ -60,9 +60,7 @@ std::string take(Draft& draft, const std::string& key, const config::Value& valu
     draft.any = true;
     return refusal(draft.parameters[i], *given).value_or("");
   }
-  std::string list;
-  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-  return "unknown key" + config::suggestion(key, known) + ". Known are: " + list;
+  return "unknown key" + config::suggestion_or_all(key, known);
 }
 
 /// Reads the tables of a document into drafts.

@@ -89,7 +89,7 @@ TEST_F(ApiDiagnose, BadInputIsAnErrorThatNamesIt) {
     EXPECT_TRUE(error->names(words)) << error->message;
   };
   refused("warp_drive", ErrorKind::bad_argument, [](auto& o) { o.exclude = {"warp_drive"}; });
-  refused("bank", ErrorKind::bad_argument, [](auto& o) { o.bank = 1; });
+  refused("bank", ErrorKind::bad_argument, [](auto& o) { o.bank = 9; });
   refused("field", ErrorKind::bad_argument, [](auto& o) { o.field_uT = {0, 0, 0}; });
   refused("missing.toml", ErrorKind::bad_input, [](auto& o) { o.config = "/missing.toml"; });
   refused("missing.toml", ErrorKind::bad_input, [](auto& o) { o.vehicle = "/missing.toml"; });

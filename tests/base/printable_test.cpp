@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <stdexcept>
 
 namespace navcal::base {
 namespace {
@@ -12,6 +14,13 @@ TEST(Printable, TextStaysAsItIs) {
   for (const char* text :
        {"", "dive 3 begins: \"EIO\" \\", "Tauchgang \xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x90\xA0"})
     EXPECT_EQ(printable(text), text);
+}
+
+TEST(Printable, OfAFileErrorOnlyFileAndReasonAreTold) {
+  EXPECT_EQ(printable(std::runtime_error("a\x1b")), "a\\u001b");
+  const std::filesystem::filesystem_error error("cannot create directories", "/proc/x",
+                                                std::make_error_code(std::errc::no_such_file_or_directory));
+  EXPECT_EQ(printable(error), "/proc/x: No such file or directory");
 }
 
 TEST(Printable, ControlCharactersAreEscaped) {

@@ -79,7 +79,7 @@ TEST_F(CalibrateJudgement, WhatIsNotDeterminedIsNull) {
 TEST_F(CalibrateJudgement, AMissingInstrumentIsNamed) {
   const Json json = calibrated(turning_path(60), compass_only());
   EXPECT_EQ(json["gyro"]["reason"], "no reading of the inertial card so far");
-  EXPECT_EQ(json["gps_compass"]["reason"], "no reading of the GPS receiver so far");
+  EXPECT_EQ(json["gps_compass"]["reason"], "no fix with a speed over ground so far");
 }
 
 }  // namespace

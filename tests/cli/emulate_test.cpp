@@ -181,6 +181,19 @@ TEST_F(Emulate, WhatItIsToldWrongly) {
   EXPECT_NE(errors.find("'fly' is none of"), std::string::npos) << errors;
 }
 
+TEST_F(Emulate, ASecondOneIsRefusedWhileTheFirstRuns) {
+  start();
+  const fs::path of_first = fs::read_symlink(dir / "compass");
+  Program second({"emulate", "--dir", dir.string()});
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_NE(second.errors().find("another navcal that runs has this port"), std::string::npos);
+  EXPECT_EQ(fs::read_symlink(dir / "compass"), of_first);
+  program.reset();                                                   // by SIGKILL
+  EXPECT_TRUE(fs::is_symlink(fs::symlink_status(dir / "compass")));  // left behind
+  start();
+  EXPECT_NE(Client(dir / "compass").read_until("\r").find('\r'), std::string::npos);
+}
+
 TEST_F(Emulate, WrongUsageAndBadPathsHaveTheirStatuses) {
   EXPECT_EQ(Program({"emulate"}).wait(), 2);
   EXPECT_EQ(Program({"emulate", "--dir", dir.string(), "--stall", "5"}).wait(), 2);

@@ -137,7 +137,7 @@ TEST_F(GapCommand, JsonOnStandardOutputIsAlone) {
 
 TEST_F(GapCommand, WrongUsageIsToldBeforeTheWork) {
   EXPECT_EQ(run({}).status, 2);
-  EXPECT_EQ(run({"--bank", "1", "a.cap"}).status, 2);
+  EXPECT_EQ(run({"--bank", "9", "a.cap"}).status, 2);
   const Outcome unknown = run({"--exclude", "motorfield", "a.cap"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_NE(unknown.message.find("did you mean motor_field"), std::string::npos) << unknown.message;

@@ -68,7 +68,7 @@ TEST_F(LogCommand, ImportMakesALogThatHoldsTheCapture) {
   EXPECT_EQ(info["finished"], true);
   EXPECT_EQ(info["ports"].size(), 2U);
   EXPECT_GT(info["topics"]["/compass"]["messages"], 100);  // the words are real ones, the card's frames are not
-  EXPECT_EQ(run({"import", "-o", imported, log}).status, 3) << "it is a log already";
+  EXPECT_EQ(run({"import", "-o", imported + "2.mcap", log}).status, 3) << "it is a log already";
   EXPECT_EQ(run({"import", "-o", (path_ / "absent" / "b.mcap").string(), capture}).status, 1);
   const auto torn = write("torn.cap", "#capture 1\n#port imu imu-card 57600\nx\n").string();
   EXPECT_EQ(run({"import", "-o", (path_ / "c.mcap").string(), torn}).status, 3);

@@ -53,6 +53,8 @@ TEST_F(WrongUsage, NoOutputIsWrittenOverAnInput) {
   expect_refused("calibrate --report a.cap a.cap", 2, words);
   expect_refused("gap --json a.cap a.cap", 2, words);
   expect_refused("gap --report h.cap --holdout h.cap a.cap", 2, words);
+  expect_refused("gap trial --cases 1 --layout a.cap --json a.cap", 2, words);
+  expect_refused("log import -o a.mcap a.cap", 1, "a.mcap: the file exists and is not overwritten");
   EXPECT_EQ(navcal::test::read_file(folder_ / "a.cap"), capture);
   EXPECT_EQ(navcal::test::read_file(folder_ / "a.mcap"), log);
 }
@@ -63,6 +65,69 @@ TEST_F(WrongUsage, NoOutputIsWrittenOverAnother) {
                  "two outputs have this name");
   expect_refused("gap --json a.html --report a.html a.cap", 2, "two outputs have this name");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "y.cap"));
+}
+
+TEST_F(WrongUsage, AWindowWithoutAReadingIsNoEmptyAnswer) {
+  ASSERT_EQ(run("simulate --mission survey --seconds 20 -o a.cap").status, 0);
+  std::filesystem::copy(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml", folder_ / "v.toml");
+  for (const char* command : {"calibrate", "audit", "gap", "identify --vehicle v.toml -o w.toml", "noise"}) {
+    const auto with = [&](const char* window) { return std::string(command) + " a.cap " + window; };
+    const std::string nothing = "--from and --to leave nothing of the recording, which is ";
+    expect_refused(with("--from 9 --to 3"), 2,
+                   command == std::string("noise") ? nothing : "--from 9 is not before --to 3");
+    expect_refused(with("--from 3000"), 2, nothing);
+    expect_refused(with("--to 0"), 2, nothing);
+  }
+  expect_refused("calibrate a.cap --from 2026-01-01T00:00:09Z --to 2026-01-01T00:00:09Z", 2, "is not before");
+  expect_refused("calibrate a.cap --from 5 --to 2025-01-01T00:00:00Z", 2, "leave nothing of the recording");
+  EXPECT_EQ(run("calibrate a.cap --from 2026-01-01T00:00:05Z").status, 0);
+  // Of a series, the first file may lie before the window.
+  ASSERT_EQ(run("simulate --mission survey --seconds 20 --date 2026-01-02 -o b.cap").status, 0);
+  EXPECT_EQ(run("calibrate a.cap b.cap --from 2026-01-01T12:00:00Z").status, 0);
+}
+
+TEST_F(WrongUsage, AFileThatCannotBeReadIsBadInputAndNamedOnce) {
+  ASSERT_EQ(run("simulate --mission survey --seconds 5 -o a.cap").status, 0);
+  for (const char* command : {"replay no.cap",
+                              "calibrate no.cap",
+                              "audit no.cap",
+                              "noise no.cap",
+                              "gap no.cap",
+                              "view no.cap",
+                              "log info no.cap",
+                              "log finish no.mcap",
+                              "log export --csv d no.mcap",
+                              "log export --cap d.cap no.cap",
+                              "log import -o n.mcap no.bin",
+                              "log import --driver nmea -o n.mcap no.nmea",
+                              "log surfacings no.cap",
+                              "gap --from no.json --export sitl",
+                              "simulate --path no.csv -o n.cap",
+                              "decode --protocol nmea no.bin",
+                              "validate-runs --nominal no --runs no --json -",
+                              "ports send-calibration no --parameters no.param",
+                              "remote tcp:localhost:1 --key-file no.key",
+                              "gap a.cap --holdout no.cap",
+                              "gap trial --cases 1 --layout no.toml"}) {
+    expect_refused(command, 3, ": No such file or directory");
+    const std::string said = run(command).errors;
+    EXPECT_EQ(said.find(" no"), said.rfind(" no")) << said;
+    EXPECT_EQ(said.find("error"), std::string::npos) << said;
+  }
+  // What cannot be written is no bad input.
+  for (const char* command : {"emulate --dir /proc/no", "play a.cap --dir /proc/no", "fleet plan -o /proc/no ."})
+    expect_refused(command, 1, "navcal: /proc/no: No such file or directory");
+  expect_refused("log import -o /proc/no.mcap a.cap", 1, "navcal: /proc/no.mcap: No such file or directory");
+}
+
+TEST_F(WrongUsage, ARemarkNamesItsFileOnce) {
+  ASSERT_EQ(run("simulate --mission survey --seconds 20 -o a.cap").status, 0);
+  std::filesystem::resize_file(folder_ / "a.cap", std::filesystem::file_size(folder_ / "a.cap") - 3);
+  for (const char* command : {"replay", "calibrate", "audit", "noise", "log info", "log surfacings"}) {
+    const std::string said = run(std::string(command) + " a.cap").errors;
+    EXPECT_NE(said.find("a.cap:"), std::string::npos) << command;
+    EXPECT_EQ(said.find("a.cap:"), said.rfind("a.cap:")) << said;
+  }
 }
 
 TEST_F(WrongUsage, ARecordingIsNoCheckOfItself) {

@@ -106,8 +106,7 @@ TEST(MissionFile, TheShippedOnesAreKnownByName) {
     static_cast<void>(load_mission("surwey"));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("did you mean survey?; known: calibration_swing, identification"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("did you mean survey? (a file has"), std::string::npos)
         << error.what();
   }
   EXPECT_THROW(static_cast<void>(load_mission("./nowhere.toml")), Error);

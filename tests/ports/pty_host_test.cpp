@@ -52,9 +52,19 @@ TEST_F(PtyHostTest, ALinkLeftBehindIsReplacedAndAFileIsNot) {
 }
 
 TEST_F(PtyHostTest, ALinkThatAnotherHasTakenIsNotRemoved) {
-  const PtyHost other(io.get_executor(), link, 9600, {});
+  point_link(link, "/dev/pts/others");
   host.unplug();
-  EXPECT_EQ(fs::read_symlink(link), other.device());
+  EXPECT_EQ(fs::read_symlink(link), "/dev/pts/others");
+}
+
+TEST_F(PtyHostTest, ALinkThatAnotherHasIsRefusedUntilThatEnds) {
+  const fs::path again = folder.path() / "." / link.lexically_relative(folder.path());
+  EXPECT_THROW(PtyHost(io.get_executor(), again, 9600, {}), std::runtime_error);
+  EXPECT_EQ(fs::read_symlink(link), host.device());
+  const fs::path other = folder.path() / "other";
+  { const PtyHost first(io.get_executor(), other, 9600, {}); }
+  const PtyHost second(io.get_executor(), other, 9600, {});
+  EXPECT_EQ(fs::read_symlink(other), second.device());
 }
 
 TEST_F(PtyHostTest, WhatNobodyHearsIsLostAndCounted) {

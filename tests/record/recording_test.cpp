@@ -208,8 +208,8 @@ TEST_F(RecordingFiles, AWindowHoldsTheReadsFromItsBeginUpToItsEnd) {
   EXPECT_EQ(reads_within("8", nullptr), (Numbers{8, 9}));
   EXPECT_EQ(reads_within(nullptr, "2026-01-01T00:00:12Z"), (Numbers{0, 1}));
   EXPECT_EQ(reads_within("0", "100"), (Numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
-  EXPECT_TRUE(reads_within("2027-01-01T00:00:00Z", nullptr).empty());
-  EXPECT_TRUE(reads_within(nullptr, "2025-01-01T00:00:00Z").empty());
+  EXPECT_THROW(reads_within("2027-01-01T00:00:00Z", nullptr), NothingInWindow);
+  EXPECT_THROW(reads_within(nullptr, "2025-01-01T00:00:00Z"), NothingInWindow);
 }
 
 TEST_F(RecordingFiles, WhatWasRecordedBeforeAWindowComesAtItsBegin) {

@@ -60,7 +60,7 @@ TEST(GapPage, ShowsWhereWhatAndHowMuch) {
   const std::string page = report::gap_page(test::explained_gap(), gap_source());
   for (const char* said :
        {"Gap between model and a.cap", "class=\"good\">explained", "to do", "What causes it", "motor_field",
-        "0.8031\u00a0\u00b1\u00a00.0042\u00a0uT/A", "98 % (95 to 101 %)", "on 2 held-out recordings",
+        "0.8031\u00a0\u00b1\u00a00.0042\u00a0uT/A", "98 % (95 to 100 %)", "on 2 held-out recordings",
         "may as well be fin_gain", "compass.field against motor current", "The other channels", "adc_droop",
         "dives/a.cap", "c.cap", "navcal simulate --mission survey --effects found.toml",
         "navcal " NAVCAL_VERSION}) {

@@ -77,7 +77,7 @@ TEST(GapText, SaysAllThatAPersonNeeds) {
   for (const char* part :
        {"compass.field", "motor current", "2.13 uT", "< 1e-12", "motor_field", "> 99.9 %",
         "x 0.8031 +- 0.0042 uT/A", "may as well be fin_gain (6.4 nats apart)",
-        "told apart by: net turns of two revolutions", "98 % (95 to 101 %)", "14.2 -> 1.23, floor 1.03",
+        "told apart by: net turns of two revolutions", "98 % (95 to 100 %)", "14.2 -> 1.23, floor 1.03",
         "on 2 held-out recordings", "nothing to close", "heading error 3.21 -> 0.401 deg", "5.1 -> 0.8 m in 100 m",
         "Two net turns", "navcal simulate --mission survey --effects found.toml",
         "100 simulated missions of the nominal vehicle, seed 1, made in 1 min 24 s", "10 min 12 s"}) {
@@ -146,6 +146,11 @@ TEST(GapWords, AGapThatGrowsIsToldWithoutDigits) {
   closure.closed = -0.09;
   closure.closed_ci.reset();
   EXPECT_EQ(report::closed_text(closure), "-9 %");
+}
+
+TEST(GapWords, NoMoreThanTheWholeGapGoesAway) {
+  EXPECT_EQ(report::closed_text({1, 0.8, 0.9, 1.83, std::array{1.05, 2.4}}), "100 % (100 to 100 %)");
+  EXPECT_EQ(report::closed_text({1, 0.89, 0.9, 1.05, std::array{0.97, 1.1}}), "100 % (97 to 100 %)");
 }
 
 TEST(GapText, NoGapIsShort) {

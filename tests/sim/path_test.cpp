@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "config/error.h"
 #include "sim/default_path.h"
 #include "sim/rotation.h"
 #include "tests/sim/drive.h"
@@ -95,7 +96,7 @@ struct PathFile : ::testing::Test {
   std::string complaint() const {
     try {
       (void)load_path(file);
-    } catch (const BadPath& error) {
+    } catch (const config::Error& error) {
       return error.what();
     }
     return {};

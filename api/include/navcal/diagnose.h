@@ -25,7 +25,7 @@ struct DiagnoseOptions {
   /// Instruments to be left out of all recordings, as if they were not there: compass, field, tilt, card, gyros,
   /// accelerometers, depth, gps or motor.
   std::vector<std::string> without;
-  int bank = 100;               ///< simulated null missions, 2 to 10000
+  int bank = 100;               ///< simulated null missions, 10 to 10000
   std::uint64_t seed = 1;       ///< of their noise and tolerances
   std::filesystem::path cache;  ///< folder in which null banks are kept; empty: none are kept
   unsigned threads = 0;         ///< 0: as many as there are processors

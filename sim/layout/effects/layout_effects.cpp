@@ -210,8 +210,7 @@ std::string_view part_words(LayoutPart part) {
 std::span<const LayoutEffectDescription> layout_effects() { return kLayoutEffects; }
 
 const LayoutEffectDescription* find_layout_effect(std::string_view name) {
-  const auto found = std::find_if(kLayoutEffects.begin(), kLayoutEffects.end(),
-                                  [&](const LayoutEffectDescription& about) { return about.name == name; });
+  const auto found = std::ranges::find(kLayoutEffects, name, &LayoutEffectDescription::name);
   return found == kLayoutEffects.end() ? nullptr : &*found;
 }
 

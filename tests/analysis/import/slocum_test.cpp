@@ -160,6 +160,31 @@ TEST(Slocum, CommandsAreInTheUnitsOfALayout) {
   EXPECT_NEAR(values["m_battpos"], 0.75 * 0.0254, 1e-9);
 }
 
+TEST(Slocum, OfTwoPumpsTheOneThatIsCommandedIsTheBallast) {
+  const test::TemporaryFolder folder;
+  std::string list = kList;
+  list.replace(list.find("m_fin rad"), 9, "c_ballast_pumped cc");
+  std::ofstream(folder / "2e5d9ba9.cac") << list;
+  DbdWriter second(false, true);
+  second.out = "d\x80\x20";
+  second.put(1'700'000'004.0);
+  second.put(200.0F);
+  std::string file = factored_dbd();
+  file.replace(file.size() - 1, 0, second.out);
+  RecordingSink sink;
+  const auto findings = read_slocum(file, std::vector{std::filesystem::path(folder.path())}, sink);
+  std::vector<double> ballast_N;
+  for (const auto& found : sink.of_port("motor")) {
+    if (found.line["class"] == "SENSOR" && found.line["quantity"] == "ballast")
+      ballast_N.push_back(found.line["value"]);
+  }
+  ASSERT_EQ(ballast_N.size(), 2U) << "not the 100 cc of c_de_oil_vol";
+  EXPECT_NEAR(ballast_N[1], 2.010, 0.001);
+  ASSERT_EQ(findings.remarks.size(), 1U);
+  EXPECT_EQ(findings.remarks[0],
+            "the ballast is c_ballast_pumped (2 commands); c_de_oil_vol (1) is that of another pump, and left");
+}
+
 TEST(Slocum, ACompressedFileIsReadAsTheSameOne) {
   const std::string file = compressed(small_dbd(false));
   ASSERT_TRUE(is_slocum(file));

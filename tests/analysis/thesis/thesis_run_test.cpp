@@ -12,6 +12,7 @@
 #include "analysis/thesis/thesis_results.h"
 #include "base/angles.h"
 #include "base/failure.h"
+#include "config/error.h"
 #include "sim/path.h"
 #include "tests/support/temporary_folder.h"
 
@@ -114,7 +115,7 @@ std::string failure_of(const std::filesystem::path& folder) {
   } catch (const base::Failure& failure) {
     EXPECT_EQ(failure.status(), base::Exit::bad_input);
     return failure.what();
-  } catch (const sim::BadPath& bad) {
+  } catch (const config::Error& bad) {
     return bad.what();
   }
   return "none";

@@ -96,6 +96,53 @@ TEST_P(SuiteRefusal, APlanarSwingSaysNothingOfTheVertical) {
   EXPECT_TRUE(vertical == nullptr || !std::isfinite(vertical->std)) << vertical->value << " +- " << vertical->std;
 }
 
+/// Reasons by which a suite refuses after half a minute of such readings.
+template <class Fill>
+std::string reason_of(Calibrator calibrator, Fill fill) {
+  Suite suite({}, {true, true, true, true});
+  for (int i = 0; i < 300; ++i) {
+    CompassReading compass;
+    RateReading rate;
+    compass.time_s = rate.time_s = 0.1 * i;
+    compass.heading_rad = 0.02 * i;
+    compass.field_body_uT = Eigen::Vector3d(18 * std::cos(0.02 * i), -18 * std::sin(0.02 * i), 40);
+    rate.rate_rad_s = {0, 0, 0.2 + 1e-6 * i};
+    fill(i, compass, rate);
+    suite.put(compass);
+    suite.put(rate);
+  }
+  suite.finish();
+  const Report report = suite.report();
+  const auto* const found = report.find(calibrator);
+  return found == nullptr ? "none" : found->judgement.reason;
+}
+
+TEST(SuiteReasons, AreTheTrueOnes) {
+  const auto nothing = [](int, CompassReading&, RateReading&) {};
+  const auto second = [](int i, CompassReading&, RateReading& rate) { rate.yaw_rate_b_rad_s = 0.2 + 1e-6 * i; };
+  const auto frozen = [](int, CompassReading& compass, RateReading&) {
+    compass.heading_rad = 1;
+    compass.field_body_uT = Eigen::Vector3d(18, 0, 40);
+  };
+  EXPECT_EQ(reason_of(Calibrator::gyro_b, nothing), "no reading of a second yaw gyro so far");
+  EXPECT_EQ(reason_of(Calibrator::gyro_b, second).find("no reading"), std::string::npos);
+  EXPECT_EQ(reason_of(Calibrator::gps_compass, nothing), "no fix with a speed over ground so far");
+  for (const Calibrator calibrator : {Calibrator::gyro, Calibrator::compass, Calibrator::magnetometer}) {
+    EXPECT_NE(reason_of(calibrator, frozen).find("stay the same to the last digit"), std::string::npos);
+    EXPECT_EQ(reason_of(calibrator, nothing).find("stay the same"), std::string::npos);
+  }
+}
+
+TEST(FieldStepWords, AStepOfNoKnownSizeIsNoFact) {
+  FieldStep step;
+  step.size_uT = {0.5, 0.1, 0.31};
+  EXPECT_EQ(words_of(step).find("the field may have stepped by (0.50"), 0U) << words_of(step);
+  step.std_uT = {8.9, 11.2, 0.94};
+  EXPECT_EQ(words_of(step).find("the field may have stepped by (0.50"), 0U) << words_of(step);
+  step.std_uT = {0.1, 11.2, std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(words_of(step).find("the field stepped by (0.50"), 0U) << words_of(step);
+}
+
 TEST(SuiteOfLargeFields, SaysThatTheFieldIsTooLarge) {
   Suite suite({}, {.compass = true});
   for (int i = 0; i < 300; ++i) {
