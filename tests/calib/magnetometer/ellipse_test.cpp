@@ -6,6 +6,7 @@
 #include <string>
 
 #include "calib/magnetometer/ellipse_estimator.h"
+#include "calib/magnetometer/ellipse_judgement.h"
 #include "tests/calib/magnetometer_paths.h"
 
 namespace navcal::calib::test {
@@ -90,6 +91,17 @@ TEST(Ellipse, RestoredGoesOnBitForBit) {
   feed(one, {readings.begin() + 177, readings.end()});
   feed(other, {readings.begin() + 177, readings.end()});
   EXPECT_EQ(saved(one), saved(other));
+}
+
+TEST(Ellipse, TheConditionIsThatOfUnknownsInUnitsOfTheirErrors) {
+  Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Identity();
+  covariance(0, 1) = covariance(1, 0) = 0.9;
+  const Eigen::Vector<double, 5> units(1, 1e-3, 1e3, 1, 1);
+  EXPECT_NEAR(condition_of<5>(units.asDiagonal() * covariance * units.asDiagonal()), 19, 1e-6);
+  covariance(0, 1) = covariance(1, 0) = 1;
+  EXPECT_GT(condition_of<5>(covariance), 1e12) << "two that are one";
+  covariance(0, 0) = 0;
+  EXPECT_TRUE(std::isinf(condition_of<5>(covariance)));
 }
 
 TEST(Ellipse, StatedErrorsCoverTheTruth) {

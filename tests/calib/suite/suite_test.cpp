@@ -203,6 +203,8 @@ TEST(Suite, SavedAndRestoredItGoesOnBitForBit) {
     ASSERT_EQ(test::saved(*second), state);
   }
   EXPECT_EQ(test::saved(*second), test::saved(whole));
+  // What the state lacks, both states lack.
+  EXPECT_EQ(second->report().rose, whole.report().rose);
 }
 
 }  // namespace
