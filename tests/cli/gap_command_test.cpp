@@ -255,10 +255,10 @@ TEST_F(GapExportCommand, ABadFileIsNamed) {
   EXPECT_EQ(bad.status, 3);
   EXPECT_EQ(bad.message, at("a.json") + ": effects[0]: the key name is missing");
   EXPECT_FALSE(std::filesystem::exists(at("x")));
-  EXPECT_EQ(run({"--from", at("absent.json"), "--export", "sitl=" + at("x")}).status, 1);
+  EXPECT_EQ(run({"--from", at("absent.json"), "--export", "sitl=" + at("x")}).status, 3);
   std::filesystem::remove(at("a.json"));
   std::filesystem::create_directory(at("a.json"));
-  EXPECT_EQ(exported({"--export", "sitl=" + at("x")}).status, 1);
+  EXPECT_EQ(exported({"--export", "sitl=" + at("x")}).status, 3);
 }
 
 TEST_F(GapCommand, ARecordingMayBeNamedLikeTheTrial) {
