@@ -106,7 +106,7 @@ TEST_F(GapTrialLayouts, WhatCannotBeIsSaid) {
   EXPECT_NE(said("err").find("there is no arm triples"), std::string::npos) << said("err");
   EXPECT_EQ(run_navcal("gap trial --cases 1 --minutes 5"), 2);
   EXPECT_EQ(run_navcal("gap trial --cases 1 --vehicles 3"), 2) << "it would not be obeyed";
-  EXPECT_EQ(run_navcal("gap trial --layout none.toml --cases 1"), 1);
+  EXPECT_EQ(run_navcal("gap trial --layout none.toml --cases 1"), 3);
 }
 
 }  // namespace

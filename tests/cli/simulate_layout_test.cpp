@@ -56,7 +56,7 @@ TEST_F(SimulateLayout, TheCaptureIsDiagnosedAsItIs) {
   ASSERT_EQ(run_navcal("gap --nominal nominal.cap --vehicle '" + layout + "' run.cap"), 0) << said("err");
   EXPECT_EQ(said("out").find("cannot be diagnosed"), std::string::npos) << said("out");
   EXPECT_NE(said("out").find("no gap"), std::string::npos) << said("out");
-  EXPECT_EQ(run_navcal("gap --bank 3 --vehicle '" + layout + "' run.cap"), 2);
+  EXPECT_EQ(run_navcal("gap --bank 30 --vehicle '" + layout + "' run.cap"), 2);
   EXPECT_NE(said("err").find("--nominal"), std::string::npos) << said("err");
 }
 
