@@ -75,7 +75,7 @@ class LiveSourceTest : public testing::Test {
   const std::uint16_t port_ = navcal::test::free_port();
   boost::asio::io_context context_;
   Hub hub_;
-  Collected collected_;
+  Collected collected_, viewer_;  ///< the hub knows them until the loop has ended
   std::shared_ptr<LiveSource> source_;
   std::thread thread_;
 };
@@ -102,17 +102,16 @@ TEST_F(LiveSourceTest, AChangedDemandIsAskedForOnce) {
   status.line();
   status.send(kPolicyTaken);
   EXPECT_TRUE(becomes([&] { return hub_.link().connected; }));
-  Collected bridge;
   in_loop([&] {
-    hub_.add(bridge, {true, {}, std::nullopt});
-    hub_.change(bridge, {true, {}, std::nullopt});
+    hub_.add(viewer_, {true, {}, std::nullopt});
+    hub_.change(viewer_, {true, {}, std::nullopt});
     return 0;
   });
   EXPECT_EQ(
       status.line(),
       R"(?WATCH={"enable":true,"json":true,"classes":["RECORD"],"topics":null,"rate_Hz":null,"topic_rate_Hz":null};)");
   in_loop([&] {
-    hub_.remove(bridge);
+    hub_.remove(viewer_);
     return 0;
   });
   status.send(kPolicyTaken);
@@ -125,13 +124,12 @@ TEST_F(LiveSourceTest, WhatChangesBeforeNavcaldHasAnsweredIsAskedForInOneRequest
   status.line();
   status.line();
   EXPECT_TRUE(becomes([&] { return hub_.link().connected; }));
-  Collected viewer;
   in_loop([&] {
     Demand demand;
-    hub_.add(viewer, demand);
+    hub_.add(viewer_, demand);
     for (const char* topic : {"/compass", "/gps", "/nav"}) {
       demand.topics.insert(topic);
-      hub_.change(viewer, demand);
+      hub_.change(viewer_, demand);
     }
     return 0;
   });
