@@ -90,6 +90,20 @@ TEST(GpsCompass, ReachesTheThesisFigureOnTenMinutes) {
   EXPECT_EQ(compass.judgement().coverage, 1);
 }
 
+TEST(GpsCompass, WhatFitsButIsTooUncertainIsRefused) {
+  Random random(1);
+  GpsCompass::Parameters parameters = parameters_for(kNoise);
+  parameters.accepted_std_rad = 1e-5;
+  GpsCompass compass(parameters);
+  feed(compass, measure_by_gps(load_true_path("path_long600"), gps_deviation(), kNoise, random));
+  const auto& estimate = compass.estimate();
+  ASSERT_TRUE(estimate && estimate->converged);
+  EXPECT_GT(estimate->worst_std_rad, parameters.accepted_std_rad);
+  EXPECT_FALSE(compass.judgement().accepted);
+  EXPECT_NE(compass.judgement().reason.find("uncertain by 1 degrees or so"), std::string::npos)
+      << compass.judgement().reason;
+}
+
 TEST(GpsCompass, AnyMisalignmentAndDeclination) {
   Random random(1);
   for (const double offset : {-3.0, -1.0, 1.5, 3.1}) {
