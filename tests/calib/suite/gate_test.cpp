@@ -88,6 +88,18 @@ TEST(Gate, CountsEveryReadingOnceAsGivenOutOrLeftOut) {
   EXPECT_EQ(out.size() + rejected, readings.size());
 }
 
+TEST(Gate, AHeadingGoesOnceAround) {
+  // A device may round its heading up to the full circle.
+  const double turn_rad = 2 * std::acos(-1.0);
+  Gate gate;
+  const auto out = through(gate, {compass(0, 0), compass(1, turn_rad - 1e-3), compass(2, turn_rad),
+                                  compass(3, turn_rad + 0.02), compass(4, -turn_rad - 0.02)});
+  EXPECT_EQ(std::ranges::count_if(
+                out, [](const Reading& one) { return std::get<CompassReading>(one).heading_rad.has_value(); }),
+            3);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::absurd), 2U);
+}
+
 TEST(Gate, ErrorCodesVoidWhatTheyConcern) {
   std::vector<Reading> readings;
   for (int i = 0; i < 40; ++i) {
