@@ -14,7 +14,7 @@ namespace navcal::base {
 /// no line. Control characters, but for those in `kept`, and bytes that are not UTF-8 become \u00XX, as in JSON.
 [[nodiscard]] std::string printable(std::string_view text, std::string_view kept = {});
 
-/// What an exception says, over several lines perhaps; of a file error the file and the reason.
+/// Words of an exception, perhaps on several lines. Of a file error: the file and the reason.
 [[nodiscard]] std::string printable(const std::exception& error);
 
 }  // namespace navcal::base

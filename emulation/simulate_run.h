@@ -21,7 +21,7 @@ struct SimulatedRun {
   std::string remark{};  ///< what is less than was asked for; empty: nothing
 };
 
-/// How the vehicle moves, and for how long. `influencer` must outlive the motion. Throws Failure,
+/// Motion of the vehicle, and its duration. `influencer` must outlive the motion. Throws Failure,
 /// config::Error, sim::UnfitLayout, sim::UnstableVehicle.
 [[nodiscard]] SimulatedRun simulate_motion(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer);
 

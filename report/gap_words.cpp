@@ -175,7 +175,7 @@ std::string closed_text(const gap::Closure& closure) {
   constexpr double kGrows = -1;
   if (!closure.closed || !std::isfinite(*closure.closed)) return "nothing to close";
   if (*closure.closed < kGrows) return "grows";
-  // What is left may be less than the floor by chance; more than the whole gap cannot go away.
+  // No more than the whole gap can go away. By chance the rest may be smaller than the floor.
   const auto share = [](double closed) { return share_text(std::min(closed, 1.0)); };
   std::string text = share(*closure.closed);
   if (closure.closed_ci && closure.closed_ci->front() < kGrows) {

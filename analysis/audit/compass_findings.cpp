@@ -70,12 +70,12 @@ HeldOutWords held_out_words(const calib::CalibratorReport& report, const IronErr
 Finding iron_finding(const AuditedLog& log) {
   Finding finding{"compass.iron", "Iron at the compass", log.compass};
   const auto* report = log.whole.report.find(Calibrator::magnetometer);
-  const auto& correction = log.whole.report.estimates.magnetometer;
+  const auto* const correction = determined_field(log.whole.report);
   if (report == nullptr) return finding.cannot("The compass sends no field.");
   const calib::Quantity* const std = report->quantity("worst_heading_rad");
   const bool is_accepted = report->judgement.accepted;
   const Finding open = refused(finding, *report);
-  if (!correction || !(is_accepted || (std != nullptr && std::isfinite(std->std)))) return open;
+  if (correction == nullptr) return open;
   const IronErrors errors = iron_errors(log, *correction);
   const HeldOutWords held_out = held_out_words(*report, errors);
   const double half_deg =
@@ -216,9 +216,7 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
                                         *finding.low > *finding.stated ? "does not hold"
                                         : errors->is_absolute          ? "holds"
                                                                        : "holds but for that part");
-  const bool is_beyond = finding.is_beyond(0, kStatedHeading_deg);
-  if (!is_beyond && !errors->is_accepted) return uncalibrated;
-  if (!is_beyond) return finding;
+  if (!finding.is_beyond(0, kStatedHeading_deg)) return errors->is_accepted ? finding : uncalibrated;
   finding.certainty = channel.port == log.compass && errors->is_accepted ? Certainty::found : Certainty::likely;
   finding.todo = "Calibrate the compass that this heading comes from, then compare again.";
   finding.put_heading(value->value, log.speed_m_s());

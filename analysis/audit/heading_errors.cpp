@@ -26,14 +26,6 @@ const FieldCorrection* accepted_field(const calib::Report& report) {
   return &*report.estimates.magnetometer;
 }
 
-/// The same, or one that is too uncertain to correct by, with a standard error that holds.
-const FieldCorrection* determined_field(const calib::Report& report) {
-  const auto* const magnetometer = report.find(Calibrator::magnetometer);
-  const auto* const worst = magnetometer != nullptr ? magnetometer->quantity("worst_heading_rad") : nullptr;
-  const bool is_determined = worst != nullptr && std::isfinite(worst->std) && report.estimates.magnetometer;
-  return is_determined ? &*report.estimates.magnetometer : accepted_field(report);
-}
-
 /// The field in body axes with the tilt that levels it.
 struct TiltedField {
   double time_s = 0;
@@ -127,6 +119,13 @@ double unexplained_uT(const std::vector<FieldTurn>& turns, const Eigen::Matrix3d
 }
 
 }  // namespace
+
+const FieldCorrection* determined_field(const calib::Report& report) {
+  const auto* const magnetometer = report.find(Calibrator::magnetometer);
+  const auto* const worst = magnetometer != nullptr ? magnetometer->quantity("worst_heading_rad") : nullptr;
+  const bool is_determined = worst != nullptr && std::isfinite(worst->std) && report.estimates.magnetometer;
+  return is_determined ? &*report.estimates.magnetometer : accepted_field(report);
+}
 
 IronErrors iron_errors(const AuditedLog& log, const FieldCorrection& correction) {
   constexpr std::size_t kSectors = 36, kFewest = 3;

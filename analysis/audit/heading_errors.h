@@ -10,6 +10,10 @@
 /// Errors of headings by calibrations that the judged readings had no part in.
 namespace navcal::analysis {
 
+/// Calibration of the field that is accepted, or that states a standard error but is too uncertain to correct by;
+/// nullptr: there is none.
+[[nodiscard]] const calib::FieldCorrection* determined_field(const calib::Report& report);
+
 struct IronErrors {
   double worst_rad = 0;  ///< largest mean error of the uncalibrated heading in a sector of ten degrees
   /// Largest difference between the headings by the two halves' calibrations; nullopt where one has none.

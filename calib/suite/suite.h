@@ -76,8 +76,8 @@ class Suite {
   void forget_field();
   void judge(const TurnedReading& turned);
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
-  /// What is missing of the first instrument it takes that is configured and has said nothing; empty when all
-  /// have.
+  /// The reading that is missing of the first configured instrument of a calibrator that has said nothing. Empty:
+  /// none is.
   [[nodiscard]] std::string silent_instrument(Calibrator calibrator) const;
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
   /// Looks anew whether a calibrator's estimate is accepted.

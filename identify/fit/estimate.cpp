@@ -175,7 +175,7 @@ Estimate estimate(PredictionErrorProblem& problem, const FitProgress& progress) 
   const Eigen::VectorXd apart = (estimate.unknowns - other.unknowns).head(estimate.stds.size());
   const Eigen::ArrayXd spread = apart.cwiseQuotient(estimate.stds).cwiseAbs();
   estimate.start_spread = spread.maxCoeff();
-  // What the two searches do not agree on, the recordings have not told.
+  // The recordings have not told a number on which the two searches disagree.
   Eigen::VectorXd grown = Eigen::VectorXd::Ones(estimate.border_covariance.rows());
   grown.head(spread.size()) = (spread > kApart).select((1 + spread.square()).sqrt(), 1);
   grow(estimate, spread.size(), grown);

@@ -81,7 +81,7 @@ TEST_F(WrongUsage, AWindowWithoutAReadingIsNoEmptyAnswer) {
   expect_refused("calibrate a.cap --from 2026-01-01T00:00:09Z --to 2026-01-01T00:00:09Z", 2, "is not before");
   expect_refused("calibrate a.cap --from 5 --to 2025-01-01T00:00:00Z", 2, "leave nothing of the recording");
   EXPECT_EQ(run("calibrate a.cap --from 2026-01-01T00:00:05Z").status, 0);
-  // Of a series, the first file may lie before the window.
+  // The first file of a series may lie before the window.
   ASSERT_EQ(run("simulate --mission survey --seconds 20 --date 2026-01-02 -o b.cap").status, 0);
   EXPECT_EQ(run("calibrate a.cap b.cap --from 2026-01-01T12:00:00Z").status, 0);
 }
@@ -114,7 +114,7 @@ TEST_F(WrongUsage, AFileThatCannotBeReadIsBadInputAndNamedOnce) {
     EXPECT_EQ(said.find(" no"), said.rfind(" no")) << said;
     EXPECT_EQ(said.find("error"), std::string::npos) << said;
   }
-  // What cannot be written is no bad input.
+  // A file that cannot be written is no bad input.
   for (const char* command : {"emulate --dir /proc/no", "play a.cap --dir /proc/no", "fleet plan -o /proc/no ."})
     expect_refused(command, 1, "navcal: /proc/no: No such file or directory");
   expect_refused("log import -o /proc/no.mcap a.cap", 1, "navcal: /proc/no.mcap: No such file or directory");

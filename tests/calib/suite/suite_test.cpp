@@ -203,7 +203,7 @@ TEST(Suite, SavedAndRestoredItGoesOnBitForBit) {
     ASSERT_EQ(test::saved(*second), state);
   }
   EXPECT_EQ(test::saved(*second), test::saved(whole));
-  // What the state lacks, both states lack.
+  // Two states are equal also where both lack the same member.
   EXPECT_EQ(second->report().rose, whole.report().rose);
 }
 
