@@ -11,8 +11,20 @@
 
 namespace navcal::record {
 
+/// Whether an output of this name is written in place: a device, a pipe, what /dev/stdout stands for. No file may
+/// take the place of such a name.
+[[nodiscard]] inline bool is_written_in_place(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/")) return true;
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
 /// A file that appears under its name only when it is whole: written beside it, then renamed. Left half-way,
-/// nothing remains. Throws std::system_error, which names the file.
+/// nothing remains. A link keeps its place, and its target is replaced. Throws std::system_error, which names the
+/// file.
 class WholeFile {
  public:
   explicit WholeFile(std::filesystem::path path)
@@ -24,12 +36,12 @@ class WholeFile {
   ~WholeFile() {
     if (file_ == nullptr) return;
     std::fclose(file_);
-    std::remove(part_.c_str());
+    if (is_apart()) std::remove(part_.c_str());
   }
 
   /// The name under which the file is written until it is whole.
   [[nodiscard]] static std::filesystem::path part_of(const std::filesystem::path& path) {
-    return path.string() + ".part";
+    return is_written_in_place(path) ? path : std::filesystem::path(target_of(path).string() + ".part");
   }
 
   void write(std::string_view bytes) {
@@ -38,15 +50,23 @@ class WholeFile {
   /// Everything is written.
   void commit() {
     std::FILE* const file = std::exchange(file_, nullptr);
-    if (std::fclose(file) != 0 || std::rename(part_.c_str(), path_.c_str()) != 0) {
+    if (std::fclose(file) != 0 || (is_apart() && std::rename(part_.c_str(), target_of(path_).c_str()) != 0)) {
       const int reason = errno;
-      std::remove(part_.c_str());
+      if (is_apart()) std::remove(part_.c_str());
       throw std::system_error(reason, std::system_category(), path_.string());
     }
   }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// The file that is being written, for libraries that open files themselves.
+  [[nodiscard]] const std::filesystem::path& part() const { return part_; }
 
  private:
+  static std::filesystem::path target_of(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto target = std::filesystem::is_symlink(path, error) ? std::filesystem::canonical(path, error) : path;
+    return error ? path : target;
+  }
+  [[nodiscard]] bool is_apart() const { return part_ != path_; }
   [[noreturn]] void fail() const { throw std::system_error(errno, std::system_category(), path_.string()); }
 
   std::filesystem::path path_;

@@ -32,12 +32,16 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 
 /// An output is written under a name of its own first (WholeFile), so that name is written to as well.
 bool would_write_to(const fs::path& output, const fs::path& file) {
+  if (record::is_written_in_place(output)) return false;
   return is_same_file(output, file) || is_same_file(record::WholeFile::part_of(output), file);
 }
 
 }  // namespace
 
 void expect_folder_of(const fs::path& file) {
+  if (record::is_written_in_place(file)) return;
+  if (std::error_code none; fs::is_directory(file, none))
+    throw base::Failure(base::Exit::usage, file.string() + ": this is a folder, not a file");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (::access(folder.c_str(), W_OK) != 0) {
     throw base::Failure(base::Exit::failed, file.string() + ": " + std::system_category().message(errno));
@@ -91,7 +95,7 @@ void write_result(const fs::path& file, std::string_view content) {
 
 void expect_new(const fs::path& file, std::string_view hint) {
   std::error_code error;
-  if (file.empty() || !fs::exists(fs::symlink_status(file, error))) return;
+  if (file.empty() || !fs::exists(fs::symlink_status(file, error)) || record::is_written_in_place(file)) return;
   throw base::Failure(base::Exit::failed,
                       fmt::format("{}: the file exists and is not overwritten{}", file.string(), hint));
 }

@@ -18,36 +18,10 @@
 
 #include "record/export/export.h"
 #include "record/export/log_tables.h"
+#include "record/whole_file.h"
 
 namespace navcal::record {
 namespace {
-
-/// Temporary path for libraries that open files themselves. The file written at part() gets its name by commit();
-/// without commit() it is removed.
-class PartPath {
- public:
-  explicit PartPath(std::filesystem::path path) : path_(std::move(path)), part_(path_.string() + ".part") {}
-  PartPath(const PartPath&) = delete;
-  PartPath& operator=(const PartPath&) = delete;
-  ~PartPath() {
-    if (!committed_) std::remove(part_.c_str());
-  }
-
-  /// The library has closed it. Throws std::system_error, which names the file.
-  void commit() {
-    if (std::rename(part_.c_str(), path_.c_str()) != 0) {
-      throw std::system_error(errno, std::system_category(), path_.string());
-    }
-    committed_ = true;
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] const std::string& part() const { return part_; }
-
- private:
-  std::filesystem::path path_;
-  std::string part_;
-  bool committed_ = false;
-};
 
 /// Its first words are what tells a MAT-file; without one of its own the library puts the date there.
 constexpr const char* kHeader = "MATLAB 5.0 MAT-file, written by navcal";
@@ -76,9 +50,11 @@ using MatVariable = std::unique_ptr<matvar_t, FreeMatVariable>;
 /// under its name by commit().
 class MatFile {
  public:
-  explicit MatFile(const std::filesystem::path& path) : path_(path) {
-    errno = 0;
-    file_.reset(Mat_CreateVer(path_.part().c_str(), kHeader, MAT_FT_MAT5));
+  explicit MatFile(const std::filesystem::path& path) : disk_(path) {
+    // It is read back below.
+    errno = is_written_in_place(path) ? ENOTSUP : 0;
+    if (errno != 0) fail();
+    file_.reset(Mat_CreateVer(disk_.part().c_str(), kHeader, MAT_FT_MAT5));
     if (!file_) fail();
   }
 
@@ -94,7 +70,7 @@ class MatFile {
     if (Mat_Close(file_.release()) != 0) fail();
     // Its complaints would go to standard error; what counts is said below.
     Mat_LogInitFunc("navcal", [](int, auto*) {});
-    file_.reset(Mat_Open(path_.part().c_str(), MAT_ACC_RDONLY));
+    file_.reset(Mat_Open(disk_.part().c_str(), MAT_ACC_RDONLY));
     for (const std::string& name : written_) {
       errno = 0;
       if (!file_) fail();
@@ -103,8 +79,8 @@ class MatFile {
     }
     file_.reset();
     errno = 0;
-    if (!is_as_long_as_it_says(path_.part())) fail();
-    path_.commit();
+    if (!is_as_long_as_it_says(disk_.part())) fail();
+    disk_.commit();
   }
 
  private:
@@ -113,10 +89,10 @@ class MatFile {
   };
   [[noreturn]] void fail() const {
     const int reason = errno != 0 ? errno : EIO;
-    throw std::system_error(reason, std::system_category(), path_.path().string());
+    throw std::system_error(reason, std::system_category(), disk_.path().string());
   }
 
-  PartPath path_;
+  WholeFile disk_;
   std::unique_ptr<mat_t, Close> file_;
   std::vector<std::string> written_;
 };

@@ -163,6 +163,17 @@ TEST_F(Simulate, RefusesWithTheReasonAndLeavesNothingBehind) {
   expect_files({"bad.csv", "bad.toml", "effects.toml", "range.toml"});
 }
 
+// A file in the place of a device or pipe would be the end of it for every other program.
+TEST_F(Simulate, APipeIsWrittenToAndStaysAPipe) {
+  const auto outcome =
+      run("mkfifo pipe && { wc -c < pipe > counted & } && '" NAVCAL_PROGRAM
+          "' simulate --mission survey --seconds 2 -o a.cap --truth pipe && wait && test -p pipe && "
+          "test $(cat counted) -gt 100 && '" NAVCAL_PROGRAM
+          "' simulate --mission survey --seconds 2 -o /dev/stdout --truth /dev/null | cmp - a.cap && "
+          "test -c /dev/null");
+  EXPECT_EQ(outcome.status, 0) << outcome.output << outcome.errors;
+}
+
 TEST_F(Simulate, InterruptedItLeavesNoHalfFile) {
   const auto outcome = run("'" NAVCAL_PROGRAM
                            "' simulate --mission survey --seconds 500000 -o a.cap --truth a.csv & "
