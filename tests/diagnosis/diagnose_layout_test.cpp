@@ -20,27 +20,6 @@ TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   EXPECT_LT(answer.gap.pooled.after, answer.gap.pooled.before);
 }
 
-TEST(DiagnoseLayout, ThreeRecordingsTogetherTellMoreThanOne) {
-  const auto of = micro();
-  const config::Layout truth = changed(of.prior, "thrust_scale", "thruster.2", {-0.06});
-  const LayoutRequest request{.layout = of.prior, .excluded = {}, .threads = 1};
-  LayoutRecordings recordings{
-      recording(of, truth, 1), {}, {recording(of, of.prior, 11), recording(of, of.prior, 31)}, {}};
-  const auto alone = diagnose(request, recordings, [](std::string_view, double) {});
-  recordings.others = {recording(of, truth, 21), recording(of, truth, 41)};
-  const auto together = diagnose(request, recordings, [](std::string_view, double) {});
-  ASSERT_EQ(together.verdict, gap::Verdict::explained) << together.sentence;
-  EXPECT_EQ(together.effects[0].words(), "thrust_scale of thruster.2");
-  const auto& estimate = together.effects[0].parameters.at(0);
-  EXPECT_NEAR(estimate.value, -0.06, 4 * estimate.std_error);
-  ASSERT_FALSE(alone.candidates.empty());
-  EXPECT_LT(estimate.std_error, 0.9 * alone.candidates[0].parameters.at(0).std_error);
-  ASSERT_EQ(together.recordings.size(), 3U);
-  for (const gap::RecordingFinding& one : together.recordings)
-    EXPECT_NEAR(one.effects.at(0).parameters.at(0).value, -0.06, 4 * one.effects[0].parameters[0].std_error);
-  EXPECT_FALSE(together.differences.at(0).differs);
-}
-
 TEST(DiagnoseLayout, MissingCommandsAreSaid) {
   const auto of = micro();
   identify::RecordedMotion without = recording(of, of.prior, 1);
