@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "calib/magnetometer/ellipse_estimator.h"
@@ -50,6 +51,19 @@ TEST(Ellipse, InSlicesEqualsTheWholeOnItsSummary) {
   EllipseFit fit = *sliced.fit();
   for (int i = 0; i < 40; ++i) fit = improve(fit, sliced.cells().cells(), thesis_noise().noise_uT);
   EXPECT_LT(apart(fit.shape, whole.fit()->shape), 1e-9);
+}
+
+TEST(Ellipse, CoverageIsTheShareOfTheCircle) {
+  for (const double share : {0.6, 0.75, 1.0}) {
+    Random random(4);
+    std::vector<Attitude> attitudes;
+    for (int i = 0; i <= 600; ++i) attitudes.push_back({2 * std::numbers::pi * share * i / 600, 0, 0});
+    EllipseEstimator estimator(thesis_noise());
+    Iron iron;
+    iron.hard_uT = {2, 1, 0};
+    feed(estimator, field_on(attitudes, iron, random));
+    EXPECT_NEAR(estimator.judgement().coverage, share, 0.03);
+  }
 }
 
 TEST(Ellipse, CellsAreAsGoodAsSingleReadings) {

@@ -89,6 +89,11 @@ TEST(CalibratorTable, EachValueIsCopiedAloneAndSaysItsNumbers) {
       EXPECT_FALSE(numbers.values.empty());
       EXPECT_EQ(numbers.values.size() % std::max<std::size_t>(numbers.rows, 1), 0U);
     }
+    if (calibrator == Calibrator::magnetometer) {
+      ASSERT_EQ(values.size(), 2U);
+      EXPECT_EQ(values[0].rows, 1U) << "the offset is a row";
+      EXPECT_EQ(values[1].rows, 3U);
+    }
     copy_value(one, Correction{}, calibrator);
     EXPECT_FALSE(has(one, calibrator));
   }

@@ -197,6 +197,51 @@ TEST(Gate, AMotorsCurrentPassesWithoutItsSpeed) {
   EXPECT_FALSE(std::get<MotorReading>(out.front()).rpm);
 }
 
+// What one instrument pauses between two readings that can be used.
+TEST(Gate, APauseIsLongerThanOneSecondOrFiveOfFixes) {
+  const auto pauses_of = [](double step_s) {
+    std::vector<Reading> readings;
+    for (int i = 0; i < 4; ++i) {
+      const double time_s = i * step_s;
+      readings.emplace_back(compass(time_s, 0.1 * i));
+      readings.emplace_back(rate(time_s));
+      readings.emplace_back(GroundReading{time_s, {1.0 * i, 0}, 1, {}});
+      MotorReading motor;
+      motor.time_s = time_s;
+      motor.rpm = 600 + i;
+      motor.current_A = 2 + 0.1 * i;
+      readings.emplace_back(motor);
+    }
+    Gate gate;
+    (void)through(gate, readings);
+    return gate.counts().gaps;
+  };
+  const auto at = [](Stream stream) { return static_cast<std::size_t>(stream); };
+  const auto short_of_one_s = pauses_of(0.95), above_one_s = pauses_of(1.05), above_five_s = pauses_of(5.1);
+  for (const Stream stream : {Stream::compass, Stream::rate, Stream::motor}) {
+    EXPECT_EQ(short_of_one_s[at(stream)], 0U) << name_of(stream);
+    EXPECT_EQ(above_one_s[at(stream)], 3U) << name_of(stream);
+  }
+  EXPECT_EQ(pauses_of(4.9)[at(Stream::ground)], 0U);
+  EXPECT_EQ(above_five_s[at(Stream::ground)], 3U);
+}
+
+// A reading of another instrument that is older than what has been given out would turn time back.
+TEST(Gate, WhatComesAfterItsTimeHasPassedIsLeftOut) {
+  Gate gate;
+  gate.put(rate(10));
+  gate.flush();
+  ASSERT_TRUE(gate.take());
+  ASSERT_FALSE(gate.take());
+  gate.put(compass(9, 1.0));
+  gate.put(compass(11, 1.1));
+  gate.flush();
+  const auto next = gate.take();
+  ASSERT_TRUE(next);
+  EXPECT_EQ(time_of(*next), 11);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::reversed), 1U);
+}
+
 TEST(Gate, WhenTimeBeginsAnewItGoesOnLater) {
   std::vector<Reading> readings;
   for (int i = 0; i < 100; ++i) readings.emplace_back(rate(1000 + i * 0.1));

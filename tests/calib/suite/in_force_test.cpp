@@ -30,6 +30,18 @@ TEST(InForce, EveryChangeHasANameOfItsOwn) {
   EXPECT_EQ(other.name(), first) << "the sum is of the content alone";
 }
 
+// The sum stands in logs, so it is the same in every release: FNV-1a, 32 bits, of the archived content.
+TEST(InForce, TheSumIsThatOfFowlerNollAndVo) {
+  InForce in_force;
+  in_force.adopt(Calibrator::gyro, gyro(1.1));
+  Correction content = in_force.correction();
+  Archive archive;
+  archive(content);
+  std::uint64_t sum = 0x811c9dc5;
+  for (const char c : archive.bytes()) sum = (sum ^ static_cast<std::uint8_t>(c)) * 0x01000193 % 0x100000000;
+  EXPECT_EQ(in_force.name().sum, sum);
+}
+
 TEST(InForce, RollsBackStepByStepAndOneCalibratorOnly) {
   InForce in_force;
   Correction both = gyro(1.1);

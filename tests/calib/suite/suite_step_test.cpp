@@ -35,7 +35,8 @@ Eigen::Vector3d rates_at(double i) {
 /// A vehicle that tumbles, with compass and gyro.
 class Tumbler {
  public:
-  explicit Tumbler(std::uint64_t seed) : suite_(options(), {.compass = true, .rate = true}), random_(seed) {}
+  explicit Tumbler(std::uint64_t seed, bool automatic = false)
+      : automatic_(automatic), suite_(options(), {.compass = true, .rate = true}), random_(seed) {}
 
   /// Goes on in a field with this hard iron. Returns the root-mean-square error of the calibrated heading over the
   /// readings after the first `settling`, rad; not a number without one.
@@ -66,16 +67,26 @@ class Tumbler {
     }
     return std::sqrt(squares / count);
   }
+  /// The suite is another one that was given the saved state.
+  void restart() {
+    Archive state;
+    suite_.archive(state);
+    suite_ = Suite(options(), {.compass = true, .rate = true});
+    Archive restoring{std::string_view(state.bytes())};
+    suite_.archive(restoring);
+    ASSERT_TRUE(restoring.ok() && restoring.at_end());
+  }
   [[nodiscard]] Suite& suite() { return suite_; }
   [[nodiscard]] const Correction& in_force() const { return suite_.in_force().correction(); }
 
  private:
-  static SuiteOptions options() {
+  [[nodiscard]] SuiteOptions options() const {
     SuiteOptions options;
     options.tilt_lag_s = 0;
-    options.automatic = false;
+    options.automatic = automatic_;
     return options;
   }
+  bool automatic_;
   Suite suite_;
   Random random_;
   int i_ = 0;
@@ -157,6 +168,43 @@ TEST(SuiteAtAStep, NothingLearntBeforeItIsHeldOutAfterIt) {
   EXPECT_TRUE(judged());
   vehicle.go(60, kIron_uT + Eigen::Vector3d(9, -6, 8));
   EXPECT_FALSE(judged());
+}
+
+// A restart of the program after a step: the step is not told twice, and its end is followed.
+TEST(SuiteAtAStep, SavedAndRestoredItFollowsTheFieldAlike) {
+  const Eigen::Vector3d step_uT(14, 9, -8);
+  Tumbler whole(7), restarted(7);
+  const auto same = [&] {
+    const Report one = whole.suite().report(), other = restarted.suite().report();
+    EXPECT_EQ(one.rose, other.rose);
+    EXPECT_EQ(one.find(Calibrator::magnetometer)->step_std_uT, other.find(Calibrator::magnetometer)->step_std_uT);
+    EXPECT_EQ(whole.in_force().magnetometer->offset_uT, restarted.in_force().magnetometer->offset_uT);
+    Archive state, of_restarted;
+    whole.suite().archive(state);
+    restarted.suite().archive(of_restarted);
+    EXPECT_EQ(state.bytes(), of_restarted.bytes());
+  };
+  for (Tumbler* const vehicle : {&whole, &restarted}) {
+    vehicle->go(600, kIron_uT);
+    ASSERT_EQ(vehicle->suite().accept(Calibrator::magnetometer), "");
+    vehicle->go(kFound, kIron_uT + step_uT);
+    EXPECT_TRUE(vehicle->suite().take_field_step());
+  }
+  restarted.restart();
+  EXPECT_FALSE(restarted.suite().take_field_step()) << "it was told before";
+  same();
+  for (Tumbler* const vehicle : {&whole, &restarted}) vehicle->go(300, kIron_uT);
+  same();
+  EXPECT_LT((restarted.in_force().magnetometer->offset_uT - kIron_uT).norm(), 1.2);
+}
+
+// Without iron no calibration is better than none, whatever else is well known.
+TEST(SuiteAtAStep, WhereNothingIsToBeGainedNothingComesIntoForce) {
+  Tumbler without(8, true), with(8, true);
+  without.go(1500, Eigen::Vector3d::Zero());
+  with.go(1500, kIron_uT);
+  EXPECT_FALSE(without.in_force().magnetometer);
+  EXPECT_TRUE(with.in_force().magnetometer);
 }
 
 }  // namespace

@@ -182,6 +182,77 @@ TEST(Suite, StartForgetsWhatOneCalibratorHasSeen) {
   EXPECT_TRUE(report.find(Calibrator::gyro)->judgement.accepted);
 }
 
+// Turning to one side alone is turning: both ends of the turn count.
+TEST(Suite, TurnsToEitherSideAreJudged) {
+  for (const double side : {-1.0, 1.0}) {
+    Suite suite(thesis_options(), kCompassAndGyros);
+    Random random(5);
+    std::normal_distribution<double> noise(0, 0.004);
+    double heading_rad = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const double rate_rad_s = side * (0.2 + 0.1 * std::sin(0.05 * i));
+      suite.put(
+          RateReading{i * 0.1, {0, 0, (rate_rad_s - kTrueBias_rad_s) / kTrueScale + 0.1 * noise(random)}, {}, {}});
+      suite.put(CompassReading{
+          i * 0.1, base::wrapped(heading_rad + 0.1 * std::sin(heading_rad) + noise(random)), 0.0, 0.0, {}, false});
+      heading_rad += 0.1 * rate_rad_s;
+    }
+    suite.finish();
+    EXPECT_GT(suite.report().heading.blocks, 20U) << side;
+    EXPECT_GT(suite.report().heading.before_rad, 0.02) << side;
+    EXPECT_LT(suite.report().heading.after_rad, 0.01) << side;
+  }
+}
+
+// finish() lets out what waits. What comes later waits as before, as in a suite that was saved in between.
+TEST(Suite, AfterItsFinishItGoesOnLikeOneThatWasRestored) {
+  const auto readings = readings_along("path5", thesis_deviation(), {}, 7);
+  Suite whole(thesis_options(), kCompassAndGyros);
+  for (std::size_t i = 0; i < 333; ++i) whole.put(readings[i]);
+  whole.finish();
+  const std::string state = test::saved(whole);
+  Suite restored(thesis_options(), kCompassAndGyros);
+  Archive restoring{std::string_view(state)};
+  restored.archive(restoring);
+  for (std::size_t i = 333; i < readings.size(); ++i) {
+    whole.put(readings[i]);
+    restored.put(readings[i]);
+  }
+  EXPECT_EQ(test::saved(restored), test::saved(whole));
+}
+
+// Deviation against an external reference of true headings. What is in force is judged as it corrects, so what is
+// right comes into force once.
+TEST(Suite, AReferenceOfTrueHeadingsBringsItsDeviationIntoForceOnce) {
+  Suite suite(thesis_options(),
+              {.compass = true, .rate = false, .ground = false, .motor = false, .reference = true});
+  const Calibrator calibrator = calibrator_named("reference_compass").value();
+  Random random(6);
+  std::normal_distribution<double> noise(0, 0.002);
+  const auto go = [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      const double time_s = i * 0.1, heading_rad = base::wrapped(0.05 * i);
+      suite.put(ReferenceReading{time_s, 1e-4, heading_rad, 0.002});
+      suite.put(CompassReading{time_s,
+                               base::wrapped(heading_rad + 0.1 + 0.05 * std::sin(heading_rad) + noise(random)),
+                               0.0,
+                               0.0,
+                               {},
+                               false});
+    }
+  };
+  go(0, 4000);
+  const Report report = suite.report();
+  const auto& judgement = report.find(calibrator)->judgement;
+  ASSERT_TRUE(judgement.accepted) << judgement.reason;
+  EXPECT_NEAR(judgement.held_out_before, std::sqrt(0.01 + 0.00125), 0.005);
+  EXPECT_LT(judgement.held_out_after, 0.01);
+  EXPECT_EQ(report.find(calibrator)->verdict, Verdict::in_force);
+  const std::uint32_t number = suite.in_force().name().number;
+  go(4000, 12000);
+  EXPECT_EQ(suite.in_force().name().number, number);
+}
+
 TEST(Suite, SavedAndRestoredItGoesOnBitForBit) {
   const auto readings = readings_along("path5", thesis_deviation(), {}, 7);
   Suite whole(thesis_options(), kCompassAndGyros);

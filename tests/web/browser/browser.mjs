@@ -89,10 +89,19 @@ export class Page {
     if (failure) throw new Error(failure.exception?.description ?? failure.text);
     return result.value;
   }
+  /** The same for those that wait: nothing if the page goes on to another one meanwhile. */
+  async #evaluateMeanwhile(call, ...values) {
+    try {
+      return await this.evaluate(call, ...values);
+    } catch (error) {
+      if (!/navigated or closed|context was destroyed|find context/.test(error.message)) throw error;
+      return null;
+    }
+  }
   /** Waits until a function gives something in the page. */
   async when(call, ...values) {
     for (const end = Date.now() + LIMIT_MS; Date.now() < end; await delay(50)) {
-      const value = await this.evaluate(call, ...values);
+      const value = await this.#evaluateMeanwhile(call, ...values);
       if (value) return value;
     }
     throw new Error(`waited in vain: ${call} of ${values}`);
@@ -104,7 +113,7 @@ export class Page {
   async until(selector, pattern) {
     let text = "(not there)";
     for (const end = Date.now() + LIMIT_MS; Date.now() < end; await delay(50)) {
-      text = await this.evaluate((name) => document.querySelector(name)?.textContent ?? "(not there)", selector);
+      text = (await this.#evaluateMeanwhile((name) => document.querySelector(name)?.textContent, selector)) ?? "(not there)";
       if (pattern.test(text)) return text;
     }
     throw new Error(`${selector} never showed ${pattern}, but: ${text}`);
