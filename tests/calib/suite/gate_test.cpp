@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace navcal::calib {
@@ -195,6 +199,128 @@ TEST(Gate, AMotorsCurrentPassesWithoutItsSpeed) {
   ASSERT_EQ(out.size(), 1U);
   EXPECT_EQ(std::get<MotorReading>(out.front()).current_A, 2.0);
   EXPECT_FALSE(std::get<MotorReading>(out.front()).rpm);
+}
+
+// Limits of what is plausible, from both sides and with both signs; not a number is never.
+TEST(Gate, EachQuantityHasItsLimit) {
+  struct Limit {
+    double most;
+    std::function<Reading(double)> with;
+    std::function<bool(const Reading&)> has;
+  };
+  const double pi = std::acos(-1.0);
+  const auto of_compass = [](std::optional<double> CompassReading::*member) {
+    return std::pair(
+        [member](double value) -> Reading {
+          CompassReading one = compass(1, 0.5);
+          one.*member = value;
+          return one;
+        },
+        [member](const Reading& one) { return (std::get<CompassReading>(one).*member).has_value(); });
+  };
+  const auto is_there = [](const Reading&) { return true; };
+  const auto [with_heading, has_heading] = of_compass(&CompassReading::heading_rad);
+  const auto [with_pitch, has_pitch] = of_compass(&CompassReading::pitch_rad);
+  const auto [with_roll, has_roll] = of_compass(&CompassReading::roll_rad);
+  const auto with_rate = [](double value) -> Reading {
+    RateReading one = rate(1);
+    one.rate_rad_s.x() = value;
+    return one;
+  };
+  const auto with_rate_b = [](double value) -> Reading {
+    RateReading one = rate(1);
+    one.yaw_rate_b_rad_s = value;
+    return one;
+  };
+  const auto with_force = [](double value) -> Reading {
+    RateReading one = rate(1);
+    one.specific_force_m_s2 = Eigen::Vector3d(0, value, 9);
+    return one;
+  };
+  const auto with_speed = [](double value) -> Reading { return GroundReading{1, {0, 0}, value, {}}; };
+  const auto with_place = [](double value) -> Reading { return GroundReading{1, {0, value}, 1, {}}; };
+  const auto with_rpm = [](double value) -> Reading { return MotorReading{1, value, 2.0}; };
+  const auto with_current = [](double value) -> Reading { return MotorReading{1, 600.0, value}; };
+  const auto has_current = [](const Reading& one) { return std::get<MotorReading>(one).current_A.has_value(); };
+  const std::vector<Limit> limits{{2 * pi + 0.01, with_heading, has_heading},
+                                  {pi / 2 + 0.01, with_pitch, has_pitch},
+                                  {pi + 0.01, with_roll, has_roll},
+                                  {35, with_rate, is_there},
+                                  {35, with_rate_b, is_there},
+                                  {200, with_force, is_there},
+                                  {50, with_speed, is_there},
+                                  {1e6, with_place, is_there},
+                                  {1e5, with_rpm, is_there},
+                                  {1e3, with_current, has_current}};
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const Limit& limit = limits[i];
+    const auto passes = [&](double value) {
+      Gate gate;
+      const auto out = through(gate, {limit.with(value)});
+      const bool passed = !out.empty() && limit.has(out.front());
+      std::uint64_t counted = 0;
+      for (const auto& stream : gate.counts().left_out)
+        for (const std::uint64_t count : stream) counted += count;
+      // A motor's current alone is left out without a count.
+      if (i + 1 < limits.size()) EXPECT_EQ(counted, passed ? 0U : 1U) << i << ": " << value;
+      return passed;
+    };
+    for (const double sign : {-1.0, 1.0}) {
+      EXPECT_TRUE(passes(sign * (limit.most - 1e-3))) << i;
+      EXPECT_FALSE(passes(sign * (limit.most + 1e-3))) << i;
+    }
+    EXPECT_FALSE(passes(std::nan(""))) << i;
+  }
+}
+
+// An instrument hangs if it says the same ten times and for 0.9 s; neither alone is enough.
+TEST(Gate, AnInstrumentHangsAfterTenReadingsAndNineTenthsOfASecond) {
+  const auto frozen = [](double step_s, int same) {
+    std::vector<Reading> readings;
+    for (int i = 0; i < 60; ++i)
+      readings.emplace_back(compass(i * step_s, i >= 20 && i < 20 + same ? 2.0 : 0.01 * i));
+    Gate gate;
+    (void)through(gate, readings);
+    return left_out(gate, Stream::compass, Rejection::frozen);
+  };
+  EXPECT_EQ(frozen(0.11, 9), 0U) << "nine readings";
+  EXPECT_EQ(frozen(0.11, 11), 11U);
+  EXPECT_EQ(frozen(0.05, 15), 0U) << "0.7 s";
+  EXPECT_EQ(frozen(0.05, 20), 20U);
+}
+
+// Saved and restored in the middle of what is frozen, late and switched, it goes on alike.
+TEST(Gate, SavedAndRestoredItGoesOnAlike) {
+  const auto reading_at = [](int i) -> Reading {
+    if (i % 3 == 0) return MotorReading{0.1 * i, i % 60 < 30 ? 0.0 : 600.0, 1.0};
+    if (i % 3 == 1) return rate(0.1 * i);
+    return compass(0.1 * i - (i % 7 == 0 ? 0.35 : 0.0), i % 90 < 45 ? 2.0 : 0.01 * (i % 200));
+  };
+  const auto archived = [](Gate& gate) {
+    Archive state;
+    gate.archive(state);
+    return state.bytes();
+  };
+  for (const int cut : {40, 77, 130, 200}) {
+    Gate whole, first, second;
+    for (int i = 0; i < 300; ++i) {
+      whole.put(reading_at(i));
+      Gate& other = i < cut ? first : second;
+      other.put(reading_at(i));
+      std::optional<Reading> one;
+      while ((one = whole.take())) {
+        const auto same = other.take();
+        ASSERT_TRUE(same && time_of(*same) == time_of(*one) && same->index() == one->index()) << i;
+      }
+      ASSERT_FALSE(other.take()) << i;
+      if (i + 1 != cut) continue;
+      const std::string state = archived(first);
+      Archive restoring{std::string_view(state)};
+      second.archive(restoring);
+      ASSERT_TRUE(restoring.ok() && restoring.at_end());
+    }
+    EXPECT_EQ(archived(second), archived(whole));
+  }
 }
 
 // What one instrument pauses between two readings that can be used.

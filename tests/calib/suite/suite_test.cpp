@@ -248,6 +248,9 @@ TEST(Suite, AReferenceOfTrueHeadingsBringsItsDeviationIntoForceOnce) {
   EXPECT_NEAR(judgement.held_out_before, std::sqrt(0.01 + 0.00125), 0.005);
   EXPECT_LT(judgement.held_out_after, 0.01);
   EXPECT_EQ(report.find(calibrator)->verdict, Verdict::in_force);
+  EXPECT_NEAR(report.find(calibrator)->quantity("A_rad")->value, 0.1, 0.01);
+  EXPECT_NEAR(report.find(calibrator)->quantity("B_rad")->value, 0.05, 0.01);
+  EXPECT_NEAR(report.find(calibrator)->quantity("delay_s")->value, 0, 0.02);
   const std::uint32_t number = suite.in_force().name().number;
   go(4000, 12000);
   EXPECT_EQ(suite.in_force().name().number, number);
