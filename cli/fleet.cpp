@@ -22,6 +22,7 @@
 #include "fleet/plan_report.h"
 #include "fleet/worker_pool.h"
 #include "gap/thresholds.h"
+#include "record/whole_file.h"
 
 namespace navcal::cli {
 namespace {
@@ -70,6 +71,8 @@ void merge_fleet(const std::string& folder, const std::string& output, const std
   const fleet::Plan plan = fleet::load_plan(folder);
   const fs::path file = output.empty() ? plan.folder / "results.sqlite" : fs::path(output);
   expect_results({fleet::catalogue_of(plan.folder)}, {file, page});
+  if (record::is_written_in_place(file))
+    throw base::Failure(base::Exit::usage, file.string() + ": a database needs an ordinary file");
   const fleet::MergeSummary summary = fleet::merge(plan, file);
   if (!page.empty()) write_result(page, fleet::merge_page(plan, fleet::ResultStore(plan.folder)));
   fmt::print("{}: {} tasks done, {} failed, {} open\n", file.string(), summary.done, summary.failed, summary.open);

@@ -115,6 +115,9 @@ TEST_F(FleetProgram, WrongUsageAndBadInputHaveTheirStatuses) {
   EXPECT_EQ(run({"run", folder_.plan().string(), "--task", "x"}), 2);
   const std::string catalogue = (folder_.plan() / "plan.sqlite").string();
   EXPECT_EQ(run({"merge", folder_.plan().string(), "-o", catalogue}), 2);
+  EXPECT_EQ(run({"merge", folder_.plan().string(), "-o", "/dev/null"}), 2);
+  EXPECT_NE(err_.find("/dev/null: a database needs an ordinary file"), std::string::npos) << err_;
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
 TEST_F(FleetProgram, MissionsSteeredAlikeShareABankAndTheirAnswersAreThoseOfASerialRun) {
