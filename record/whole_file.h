@@ -28,7 +28,8 @@ namespace navcal::record {
 class WholeFile {
  public:
   explicit WholeFile(std::filesystem::path path)
-      : path_(std::move(path)), part_(part_of(path_)), file_(std::fopen(part_.c_str(), "wbe")) {
+      : path_(std::move(path)), target_(target_of(path_)), part_(part_of(path_)),
+        file_(std::fopen(part_.c_str(), "wbe")) {
     if (file_ == nullptr) fail();
   }
   WholeFile(const WholeFile&) = delete;
@@ -50,7 +51,7 @@ class WholeFile {
   /// Everything is written.
   void commit() {
     std::FILE* const file = std::exchange(file_, nullptr);
-    if (std::fclose(file) != 0 || (is_apart() && std::rename(part_.c_str(), target_of(path_).c_str()) != 0)) {
+    if (std::fclose(file) != 0 || (is_apart() && std::rename(part_.c_str(), target_.c_str()) != 0)) {
       const int reason = errno;
       if (is_apart()) std::remove(part_.c_str());
       throw std::system_error(reason, std::system_category(), path_.string());
@@ -69,8 +70,7 @@ class WholeFile {
   [[nodiscard]] bool is_apart() const { return part_ != path_; }
   [[noreturn]] void fail() const { throw std::system_error(errno, std::system_category(), path_.string()); }
 
-  std::filesystem::path path_;
-  std::filesystem::path part_;
+  std::filesystem::path path_, target_, part_;
   std::FILE* file_;
 };
 

@@ -42,7 +42,8 @@ void expect_folder_of(const fs::path& file) {
   if (record::is_written_in_place(file)) return;
   if (std::error_code none; fs::is_directory(file, none))
     throw base::Failure(base::Exit::usage, file.string() + ": this is a folder, not a file");
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const fs::path part = record::WholeFile::part_of(file);  // beside the target of a link
+  const fs::path folder = part.has_parent_path() ? part.parent_path() : ".";
   if (::access(folder.c_str(), W_OK) != 0) {
     throw base::Failure(base::Exit::failed, file.string() + ": " + std::system_category().message(errno));
   }

@@ -6,7 +6,6 @@
 #include <array>
 #include <boost/locale/encoding_utf.hpp>
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>

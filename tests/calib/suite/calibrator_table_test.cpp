@@ -115,10 +115,7 @@ TEST(CalibratorUnits, EachIsSavedAndRestoredExactly) {
   Suite suite(thesis_options(), kAll);
   feed(suite);
   const std::string state = saved(suite);
-  Suite other(thesis_options(), kAll);
-  Archive restoring{std::string_view(state)};
-  other.archive(restoring);
-  ASSERT_TRUE(restoring.ok() && restoring.at_end());
+  Suite other = restored(state, thesis_options(), kAll);
   EXPECT_EQ(saved(other), state);
   const Report before = suite.report(), after = other.report();
   for (std::size_t i = 0; i < before.calibrators.size(); ++i) {

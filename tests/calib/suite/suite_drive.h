@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <string>
@@ -48,6 +50,15 @@ inline std::string saved(Suite& suite) {
   Archive archive;
   suite.archive(archive);
   return archive.bytes();
+}
+
+/// Another suite that was given a saved state.
+inline Suite restored(const std::string& state, const SuiteOptions& options, const Instruments& instruments) {
+  Suite suite(options, instruments);
+  Archive archive{std::string_view(state)};
+  suite.archive(archive);
+  EXPECT_TRUE(archive.ok() && archive.at_end());
+  return suite;
 }
 
 }  // namespace navcal::calib::test

@@ -7,6 +7,7 @@
 #include "base/angles.h"
 #include "calib/suite/suite.h"
 #include "tests/calib/magnetometer_paths.h"
+#include "tests/calib/suite/suite_drive.h"
 
 namespace navcal::calib {
 namespace {
@@ -68,14 +69,7 @@ class Tumbler {
     return std::sqrt(squares / count);
   }
   /// The suite is another one that was given the saved state.
-  void restart() {
-    Archive state;
-    suite_.archive(state);
-    suite_ = Suite(options(), {.compass = true, .rate = true});
-    Archive restoring{std::string_view(state.bytes())};
-    suite_.archive(restoring);
-    ASSERT_TRUE(restoring.ok() && restoring.at_end());
-  }
+  void restart() { suite_ = restored(saved(suite_), options(), {.compass = true, .rate = true}); }
   [[nodiscard]] Suite& suite() { return suite_; }
   [[nodiscard]] const Correction& in_force() const { return suite_.in_force().correction(); }
 
@@ -179,10 +173,7 @@ TEST(SuiteAtAStep, SavedAndRestoredItFollowsTheFieldAlike) {
     EXPECT_EQ(one.rose, other.rose);
     EXPECT_EQ(one.find(Calibrator::magnetometer)->step_std_uT, other.find(Calibrator::magnetometer)->step_std_uT);
     EXPECT_EQ(whole.in_force().magnetometer->offset_uT, restarted.in_force().magnetometer->offset_uT);
-    Archive state, of_restarted;
-    whole.suite().archive(state);
-    restarted.suite().archive(of_restarted);
-    EXPECT_EQ(state.bytes(), of_restarted.bytes());
+    EXPECT_EQ(saved(whole.suite()), saved(restarted.suite()));
   };
   for (Tumbler* const vehicle : {&whole, &restarted}) {
     vehicle->go(600, kIron_uT);

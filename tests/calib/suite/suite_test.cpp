@@ -62,11 +62,8 @@ TEST(Suite, AVehicleWithoutASecondGyroFindsTheSameForTheFirst) {
   EXPECT_FALSE(without.estimates.gyro_b);
   EXPECT_FALSE(without.in_force.gyro_b);
   const std::string state = saved(one);
-  Suite restored(thesis_options(), kCompassAndGyros);
-  Archive archive(state);
-  restored.archive(archive);
-  EXPECT_TRUE(archive.ok());
-  EXPECT_EQ(saved(restored), state);
+  Suite again = restored(state, thesis_options(), kCompassAndGyros);
+  EXPECT_EQ(saved(again), state);
 }
 
 TEST(Suite, RefusesWhatAnArcCannotTellAndSaysWhichTurnIsMissing) {
@@ -204,21 +201,18 @@ TEST(Suite, TurnsToEitherSideAreJudged) {
   }
 }
 
-// finish() lets out what waits. What comes later waits as before, as in a suite that was saved in between.
+// What was saved after finish() goes on as the suite itself does.
 TEST(Suite, AfterItsFinishItGoesOnLikeOneThatWasRestored) {
   const auto readings = readings_along("path5", thesis_deviation(), {}, 7);
   Suite whole(thesis_options(), kCompassAndGyros);
   for (std::size_t i = 0; i < 333; ++i) whole.put(readings[i]);
   whole.finish();
-  const std::string state = test::saved(whole);
-  Suite restored(thesis_options(), kCompassAndGyros);
-  Archive restoring{std::string_view(state)};
-  restored.archive(restoring);
+  Suite again = restored(test::saved(whole), thesis_options(), kCompassAndGyros);
   for (std::size_t i = 333; i < readings.size(); ++i) {
     whole.put(readings[i]);
-    restored.put(readings[i]);
+    again.put(readings[i]);
   }
-  EXPECT_EQ(test::saved(restored), test::saved(whole));
+  EXPECT_EQ(test::saved(again), test::saved(whole));
 }
 
 // Deviation against an external reference of true headings. What is in force is judged as it corrects, so what is
@@ -270,10 +264,7 @@ TEST(Suite, SavedAndRestoredItGoesOnBitForBit) {
     }
     if (i != 333) continue;
     const std::string state = test::saved(first);
-    second.emplace(thesis_options(), kCompassAndGyros);
-    Archive restoring{std::string_view(state)};
-    second->archive(restoring);
-    ASSERT_TRUE(restoring.ok() && restoring.at_end());
+    second = restored(state, thesis_options(), kCompassAndGyros);
     ASSERT_EQ(test::saved(*second), state);
   }
   EXPECT_EQ(test::saved(*second), test::saved(whole));
