@@ -52,8 +52,8 @@ void CalibrateRun::play(const std::string& file, const record::Progress& progres
     progress(recording->progress());
   }
   pipeline_->advance(newest_ns_, sink_);
-  for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
-    if (pipeline_->statistics(port).has_corrected_fields) tell_corrected_fields(file);
+  for (std::size_t port = 0; port < settings_.ports.size(); ++port) {
+    if (pipeline_->statistics(static_cast<std::uint16_t>(port)).has_corrected_fields) tell_corrected_fields(file);
   }
   remarks_.insert(remarks_.end(), recording->remarks().begin(), recording->remarks().end());
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/surfacing_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <variant>
 
@@ -49,7 +51,7 @@ bool SurfacingRun::play(const std::string& file) {
     ports.give(*entry, *pipeline_, *this);
     if (const auto* calibration = std::get_if<pipeline::CalibrationChange>(&*entry)) {
       if (const auto problem = pipeline_->replay_calibration(*calibration, *this); !problem.empty())
-        remarks_.push_back(file + ": " + problem);
+        remarks_.push_back(fmt::format("{}: {}", file, problem));
     }
     progress.show(recording->progress());
   }

@@ -60,7 +60,7 @@ Sample sample_of(const pipeline::NavigationSample& sample) {
   }
   if (estimate.heading_rad) value.heading_std_rad = estimate.heading_std_rad;
   if (const auto& v = estimate.velocity_m_s) value.velocity_m_s = Vector3{v->x(), v->y(), v->z()};
-  return {Sample::kNoPort, sample.stamp, sample.calibration, std::move(value)};
+  return {Sample::kNoPort, sample.stamp, sample.calibration, value};
 }
 
 Sample sample_of(const pipeline::BatterySample& sample) {

@@ -102,7 +102,7 @@ Orders Pilot::next(const Reading& reading, double now_s) {
     if (auto reason = alarm(reading, now_s)) stop(std::move(reason), now_s);
   }
   if (!stopping()) {
-    const Orders orders = mission_.next(state_, period_s);
+    Orders orders = mission_.next(state_, period_s);
     if (!mission_.finished()) return orders;
     stop(std::nullopt, now_s);
   }

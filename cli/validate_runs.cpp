@@ -152,7 +152,7 @@ class RunAnswers {
       std::vector<runs::Response> pool;
       for (const std::string& member : members) {
         const auto found = responses_.find(member);
-        if (found == responses_.end()) bad_pools(file, "pool " + name + ": there is no run " + member);
+        if (found == responses_.end()) bad_pools(file, fmt::format("pool {}: there is no run {}", name, member));
         pool.push_back(found->second);
       }
       add("pool", name, pool);

@@ -31,7 +31,7 @@ struct ViewArguments {
 
 /// A log of a capture, or of a log of another system.
 std::filesystem::path log_of(const std::string& file, const std::filesystem::path& folder) {
-  const std::filesystem::path log = folder / "recording.mcap";
+  std::filesystem::path log = folder / "recording.mcap";
   std::vector<std::string> remarks;
   const bool is_foreign = run_log_job([&](const record::Progress&) { return analysis::is_foreign_log(file, {}); });
   if (is_foreign) {

@@ -25,9 +25,8 @@ std::string OptionInfo::name() const {
 
 std::string OptionInfo::allowed() const {
   const std::string unit_after = unit.name.empty() ? "" : fmt::format(" {}", unit.name);
-  const std::string range =
-      octal ? fmt::format("0o{:03o} to 0o{:03o}", static_cast<int>(low), static_cast<int>(high))
-            : fmt::format("{} to {}{}", low, high, unit_after);
+  std::string range = octal ? fmt::format("0o{:03o} to 0o{:03o}", static_cast<int>(low), static_cast<int>(high))
+                            : fmt::format("{} to {}{}", low, high, unit_after);
   switch (kind) {
     case Kind::boolean: return "true or false";
     case Kind::integer:

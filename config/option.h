@@ -114,7 +114,7 @@ struct TableOf {
   }
 
   template <class Member>
-  Option<Owner> choice(std::string_view key, Member member, std::vector<std::string_view> choices,
+  Option<Owner> choice(std::string_view key, Member member, const std::vector<std::string_view>& choices,
                        std::string_view description) const {
     return make(
         {.key = key, .description = description, .kind = Kind::choice, .choices = choices}, member,

@@ -71,7 +71,7 @@ Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information, const Eigen::V
 }
 
 Likelihood JointPrior::of_changes(const Likelihood& likelihood) const {
-  const Likelihood all = likelihood.about(mean).blurred(root);
+  Likelihood all = likelihood.about(mean).blurred(root);
   if (recordings == 1) return all;
   const Eigen::Index own = mean.size() / recordings;
   const Eigen::MatrixXd alike = Eigen::MatrixXd::Identity(own, own).replicate(recordings, 1);

@@ -170,7 +170,8 @@ class Planner {
     const auto found = vehicle_keys_.find(file);
     if (found != vehicle_keys_.end()) return found->second;
     const config::VehicleSettings settings = file.empty() ? config::VehicleSettings{} : config::load_vehicle(file);
-    const std::string toml = config::vehicle_file(settings), key = record::sha256_of(toml);
+    const std::string toml = config::vehicle_file(settings);
+    std::string key = record::sha256_of(toml);
     add_vehicle(database_, key, file.empty() ? "the reference vehicle" : file.string(), toml);
     vehicle_keys_[file] = key;
     return key;

@@ -16,8 +16,8 @@
 namespace navcal::link {
 
 inline constexpr std::size_t kSegmentBytes = 180;
-inline constexpr std::size_t kWindow = 32;              ///< segments on their way
-inline constexpr std::size_t kMaxMessage = 256 * 1024;  ///< longer ones are not taken
+inline constexpr std::size_t kWindow = 32;           ///< segments on their way
+inline constexpr std::size_t kMaxMessage = 262'144;  ///< longer ones are not taken
 inline constexpr std::int64_t kNoDeadline = INT64_MAX;
 
 /// Payload of SEGMENT.

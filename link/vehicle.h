@@ -20,7 +20,7 @@ class Vehicle final : public End {
  public:
   static constexpr std::int64_t kReport_ns = 500'000'000;
   /// Answers that wait beyond this make further requests wait.
-  static constexpr std::size_t kWaitingAnswers = 64 * 1024;
+  static constexpr std::size_t kWaitingAnswers = 65'536;
 
   enum class Peer : std::uint8_t { none, alive, dead };
   struct Event {

@@ -66,7 +66,7 @@ bool Navigator::is_new(Last& last, std::int64_t time_ns, bool plausible) {
 std::optional<Pose> Navigator::pose_for(Last& last, std::int64_t time_ns, bool plausible) {
   if (!is_new(last, time_ns, plausible)) return std::nullopt;
   drive(time_ns);
-  const auto pose = past_.at(time_ns);
+  auto pose = past_.at(time_ns);
   if (!pose) ++left_out_;
   return pose;
 }

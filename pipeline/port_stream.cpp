@@ -20,7 +20,7 @@ constexpr std::int64_t kAhead_ns = base::kSecond_ns;
 constexpr std::int64_t kMostBound_ns = 3600 * base::kSecond_ns;
 
 // Dates before the pivot of the rollover (ICD section 2).
-constexpr std::int64_t kDay_ns = 86'400 * base::kSecond_ns, kEpoch_ns = 1024 * 7 * kDay_ns;
+constexpr std::int64_t kDay_ns = 86'400 * base::kSecond_ns, kEpoch_ns = kDay_ns * 7 * 1024;
 
 // NMEA receivers begin to send 0.05 to 0.5 s behind the second. Until the port's latency_ms says how late, UTC is
 // as uncertain as this, one standard deviation.

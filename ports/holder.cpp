@@ -43,7 +43,7 @@ std::string visible_holders_of(const std::string& device) {
 }
 
 std::string holders_of(const std::string& device) {
-  if (const std::string holders = visible_holders_of(device); !holders.empty()) return holders;
+  if (std::string holders = visible_holders_of(device); !holders.empty()) return holders;
   return has_open("/proc/self", device) ? "this process" : "another user's process";
 }
 

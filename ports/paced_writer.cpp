@@ -8,8 +8,8 @@
 
 namespace navcal::ports {
 
-PacedWriter::PacedWriter(boost::asio::any_io_executor executor, Put put)
-    : timer_(std::move(executor)), put_(std::move(put)) {}
+PacedWriter::PacedWriter(const boost::asio::any_io_executor& executor, Put put)
+    : timer_(executor), put_(std::move(put)) {}
 
 void PacedWriter::send(std::int64_t start_ns, int baud, protocols::Bytes bytes) {
   const bool was_idle = idle();

@@ -22,7 +22,7 @@ class PacedWriter {
   /// The FIFO of a 16550A, the UART that everybody copied.
   static constexpr std::size_t kPieceBytes = 16;
 
-  PacedWriter(boost::asio::any_io_executor executor, Put put);
+  PacedWriter(const boost::asio::any_io_executor& executor, Put put);
   PacedWriter(const PacedWriter&) = delete;
   PacedWriter& operator=(const PacedWriter&) = delete;
 

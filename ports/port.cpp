@@ -46,7 +46,7 @@ constexpr int kEmptyReads = 20;
 }  // namespace
 
 struct Port::State : std::enable_shared_from_this<Port::State> {
-  State(asio::any_io_executor executor, config::PortSettings port_settings, PortListener& port_listener)
+  State(const asio::any_io_executor& executor, config::PortSettings port_settings, PortListener& port_listener)
       : settings(std::move(port_settings)), listener(port_listener), descriptor(executor), timer(executor),
         address(config::parse_network_address(settings.address)), door(executor),
         buffer(address ? kLargestDatagram_bytes : kReadBytes) {

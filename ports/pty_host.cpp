@@ -31,7 +31,7 @@ constexpr std::chrono::milliseconds kLookForClient{20};
 }  // namespace
 
 struct PtyHost::State : std::enable_shared_from_this<PtyHost::State> {
-  State(asio::any_io_executor executor, std::filesystem::path link_path, int baud_rate, OnBytes callback)
+  State(const asio::any_io_executor& executor, std::filesystem::path link_path, int baud_rate, OnBytes callback)
       : link(std::move(link_path)), baud(baud_rate), on_bytes(std::move(callback)), descriptor(executor),
         timer(executor) {}
 
@@ -110,8 +110,8 @@ bool PtyHost::State::take_what_is_there(unsigned my_plugging) {
   }
 }
 
-PtyHost::PtyHost(asio::any_io_executor executor, std::filesystem::path link, int baud, OnBytes on_bytes)
-    : state_(std::make_shared<State>(std::move(executor), std::move(link), baud, std::move(on_bytes))) {
+PtyHost::PtyHost(const asio::any_io_executor& executor, std::filesystem::path link, int baud, OnBytes on_bytes)
+    : state_(std::make_shared<State>(executor, std::move(link), baud, std::move(on_bytes))) {
   state_->kept = keep_link(state_->link);
   state_->plug();
 }

@@ -29,7 +29,7 @@ class PtyHost {
   /// Makes the pseudo-terminal and the link to it (its folder too), replacing a link left behind. Throws
   /// std::system_error, or std::runtime_error when something other than a link has the name, or another PtyHost
   /// has it.
-  PtyHost(boost::asio::any_io_executor executor, std::filesystem::path link, int baud, OnBytes on_bytes);
+  PtyHost(const boost::asio::any_io_executor& executor, std::filesystem::path link, int baud, OnBytes on_bytes);
   ~PtyHost();  ///< hangs up and removes the link
   PtyHost(const PtyHost&) = delete;
   PtyHost& operator=(const PtyHost&) = delete;

@@ -10,7 +10,7 @@
 namespace navcal::protocols::oncore {
 namespace {
 
-bool is(Bytes frame, char first, char second) {
+bool is(Bytes frame, std::uint8_t first, std::uint8_t second) {
   return frame.size() >= 4 && frame[2] == first && frame[3] == second &&
          frame.size() == response_length(frame[2], frame[3]);
 }

@@ -10,9 +10,9 @@ namespace navcal::protocols {
 /// A day of the (proleptic) Gregorian calendar.
 struct Date {
   std::uint16_t year = 0;
-  std::uint8_t month = 0;  ///< 1-12
-  std::uint8_t day = 0;    ///< 1-31
-  constexpr auto operator<=>(const Date&) const = default;
+  std::uint8_t month = 0;                                   ///< 1-12
+  std::uint8_t day = 0;                                     ///< 1-31
+  constexpr auto operator<=>(const Date&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };
 
 struct TimeOfDay {
@@ -20,7 +20,8 @@ struct TimeOfDay {
   std::uint8_t minute = 0;
   std::uint8_t second = 0;  ///< 60 in a leap second
   std::uint32_t nanosecond = 0;
-  constexpr auto operator<=>(const TimeOfDay&) const = default;
+  constexpr auto operator<=>(const TimeOfDay&) const =
+      default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };
 
 /// Whether the date exists in the calendar, years 1 to 9999.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/port_matching.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace navcal::record {
@@ -20,7 +22,7 @@ PortMatch::PortMatch(const config::Settings& recorded, const config::Settings& u
 std::vector<std::string> PortMatch::remarks(const std::string& file) const {
   std::vector<std::string> remarks;
   for (const std::string& port : missing_)
-    remarks.push_back(file + ": port " + port + " is not in the configuration: left out");
+    remarks.push_back(fmt::format("{}: port {} is not in the configuration: left out", file, port));
   return remarks;
 }
 

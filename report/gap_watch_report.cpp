@@ -15,7 +15,10 @@ namespace {
 
 using EventJson = nlohmann::ordered_json;
 
-double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns / 1'000'000) * 1e-3; }
+double seconds(std::int64_t time_ns) {
+  const std::int64_t whole_ms = time_ns / 1'000'000;
+  return static_cast<double>(whole_ms) * 1e-3;
+}
 
 std::string_view event_name(gap::WatchEvent::Kind kind) {
   return base::enum_name<gap::WatchEvent::Kind::unknown>(kind, {"status", "skipped", "alarm", "cause", "unknown"});

@@ -108,7 +108,7 @@ std::shared_ptr<PageFeed> add_page(Site& site, const asio::any_io_executor& exec
   }
   settings.has_track = !track.empty();
   if (settings.has_track) site.add("GET", "/track.json", json_handler(read_simulated_track(track)));
-  const auto feed = std::make_shared<PageFeed>(executor, hub, std::move(settings));
+  auto feed = std::make_shared<PageFeed>(executor, hub, std::move(settings));
   const std::weak_ptr<PageFeed> weak = feed;
   site.add("GET", "/live.json", [weak](const Request&) -> asio::awaitable<Response> {
     const auto living = weak.lock();

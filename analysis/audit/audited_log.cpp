@@ -214,10 +214,10 @@ std::string readable(const AuditRequest& request, const base::TemporaryFolder& f
   if (!is_foreign && !device) return request.file;
   ImportOptions import = request.import;
   import.keeps_calibration = true;  // iron that the autopilot corrects is no finding
-  const std::string imported = (folder.path() / "audited.mcap").string();
-  const ImportReport report = device ? import_bytes(request.file, *device, 0, imported, progress)
-                                     : import_log(request.file, imported, import, progress);
-  log.remarks = report.remarks;
+  std::string imported = (folder.path() / "audited.mcap").string();
+  ImportReport report = device ? import_bytes(request.file, *device, 0, imported, progress)
+                               : import_log(request.file, imported, import, progress);
+  log.remarks = std::move(report.remarks);
   if (report.utc == ImportReport::Utc::unknown)
     log.remarks.emplace_back("the file states no UTC: times count from 2000-01-01");
   return imported;

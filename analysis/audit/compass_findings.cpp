@@ -74,7 +74,7 @@ Finding iron_finding(const AuditedLog& log) {
   if (report == nullptr) return finding.cannot("The compass sends no field.");
   const calib::Quantity* const std = report->quantity("worst_heading_rad");
   const bool is_accepted = report->judgement.accepted;
-  const Finding open = refused(finding, *report);
+  Finding open = refused(finding, *report);
   if (correction == nullptr) return open;
   const IronErrors errors = iron_errors(log, *correction);
   const HeldOutWords held_out = held_out_words(*report, errors);
@@ -196,7 +196,7 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
   const bool is_stated =
       own != log.heading_std_deg.end() && quantile(own->second.values, 0) < quantile(own->second.values, 1);
   if (is_stated) finding.stated = quantile(own->second.values, 0.5);
-  const Finding uncalibrated = finding.cannot(
+  Finding uncalibrated = finding.cannot(
       "The compass could not be calibrated, or the field stepped, so that nothing judges this heading" +
           (finding.stated ? fmt::format(", nor the error of {:.1f} deg that it states.", *finding.stated)
                           : std::string(".")),

@@ -112,10 +112,11 @@ double unexplained_uT(const std::vector<FieldTurn>& turns, const Eigen::Matrix3d
     product += by_iron(turns[i]).transpose() * change_uT(turns[i]);
   }
   const Eigen::Vector3d iron_uT = square.inverse() * product;
+  const std::size_t judged = turns.size() / 2;
   double squares = 0;
   for (std::size_t i = 1; i < turns.size(); i += 2)
     squares += (change_uT(turns[i]) - by_iron(turns[i]) * iron_uT).squaredNorm();
-  return std::sqrt(squares / static_cast<double>(turns.size() / 2));
+  return std::sqrt(squares / static_cast<double>(judged));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class ChannelCollector final : public pipeline::Sink {
     std::uint16_t port = 0;
     std::size_t row = 0;  ///< of the table; after its end: a mission sensor
     std::string quantity;
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
   };
   struct Kept {
     std::string unit;

@@ -92,8 +92,8 @@ CircleRun circle_run(const ThesisPath& path, const calib::EllipseShape& field, c
 
 template <class Get>
 double median_of(const std::vector<CircleRun>& runs, Get get) {
-  std::vector<double> values;
-  for (const CircleRun& run : runs) values.push_back(get(run));
+  std::vector<double> values(runs.size());
+  std::ranges::transform(runs, values.begin(), get);
   return base::median(std::move(values));
 }
 

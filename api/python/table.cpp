@@ -149,7 +149,7 @@ py::dict Table::release() {
           if constexpr (std::is_same_v<Values, Texts>) {
             return py::cast(values);
           } else {
-            return array_of(std::move(values), column.width);
+            return array_of(std::forward<decltype(values)>(values), column.width);
           }
         },
         std::move(column.values));

@@ -43,7 +43,7 @@ struct StartCommandOptions {
 std::string find_program(const std::string& name) {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   for (const char* const room : {".", "../daemon", "../web", "../ros2"}) {
-    const std::string program = (folder / room / name).lexically_normal();
+    std::string program = (folder / room / name).lexically_normal();
     if (::access(program.c_str(), X_OK) == 0) return program;
   }
   return {};

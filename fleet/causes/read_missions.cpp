@@ -142,7 +142,8 @@ void add_points(const AnswerJson& value, const AnswerJson& std, const std::strin
     history.points.push_back({of.recording, of.vehicle, of.utc_ns, value.get<double>(), std.get<double>()});
   } else if (value.is_object() && std.is_object()) {
     for (const auto& [key, each] : value.items()) {
-      if (std.contains(key)) add_points(each, std.at(key), subject, quantity + "." + key, of, histories);
+      if (std.contains(key))
+        add_points(each, std.at(key), subject, fmt::format("{}.{}", quantity, key), of, histories);
     }
   } else if (value.is_array() && std.is_array()) {
     for (std::size_t i = 0; i < std::min(value.size(), std.size()); ++i) {

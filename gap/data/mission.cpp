@@ -43,8 +43,8 @@ void set_in_order(std::vector<Reading>& readings, const std::vector<std::int64_t
 template <class Reading>
 void fill_silences(std::vector<Reading>& readings, const std::vector<Reading>& parts, double until_s) {
   if (parts.empty()) return;
-  std::vector<double> times_s;
-  for (const Reading& reading : readings) times_s.push_back(reading.time_s);
+  std::vector<double> times_s(readings.size());
+  std::ranges::transform(readings, times_s.begin(), &Reading::time_s);
   const auto silences = silences_of(Quantity::heading, times_s, until_s);
   for (const Reading& part : parts) {
     const bool needed = std::any_of(silences.begin(), silences.end(), [&](const Silence& silence) {

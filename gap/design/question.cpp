@@ -54,7 +54,7 @@ Eigen::Index joint_offset() { return offset_of(kBands.size()); }
 void add(const std::array<double, 7>& values, Coverage& seconds) {
   for (std::size_t i = 0; i < kBands.size(); ++i)
     seconds[offset_of(i) + kBands[i].index(values[i])] += kInterval_s;
-  const int row = kBands[shaft].index(values[shaft]), column = kBands[turn].index(values[turn]);
+  const std::ptrdiff_t row = kBands[shaft].index(values[shaft]), column = kBands[turn].index(values[turn]);
   seconds[joint_offset() + row * kBands[turn].count + column] += kInterval_s;
 }
 

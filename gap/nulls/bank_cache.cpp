@@ -137,8 +137,8 @@ std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder)
     if (!unreadable) found.emplace_back(used, at->path());
   }
   std::sort(found.begin(), found.end(), std::greater<>());
-  std::vector<std::filesystem::path> files;
-  for (auto& [used, file] : found) files.push_back(std::move(file));
+  std::vector<std::filesystem::path> files(found.size());
+  std::ranges::transform(found, files.begin(), [](auto& each) { return std::move(each.second); });
   return files;
 }
 

@@ -27,7 +27,7 @@ std::vector<Reading>& readings(RecordedMotion& motion, Channel channel) {
 }
 Channel next_of(Channel first, std::size_t i) { return static_cast<Channel>(static_cast<std::size_t>(first) + i); }
 
-MotionChange scaled(std::vector<Channel> channels, double factor, double offset = 0) {
+MotionChange scaled(const std::vector<Channel>& channels, double factor, double offset = 0) {
   return [=](RecordedMotion& motion) {
     for (const Channel channel : channels) {
       // Angles were wrapped after the error was made.
@@ -47,7 +47,7 @@ MotionChange scaled(std::vector<Channel> channels, double factor, double offset 
 MotionChange swapped(Channel a, Channel b) {
   return [=](RecordedMotion& motion) { std::swap(readings(motion, a), readings(motion, b)); };
 }
-MotionChange all_of(std::vector<MotionChange> changes) {
+MotionChange all_of(const std::vector<MotionChange>& changes) {
   return [=](RecordedMotion& motion) {
     for (const auto& change : changes) change(motion);
   };
@@ -223,7 +223,7 @@ std::vector<Suspect> suspects_of_actuators(const config::Layout& layout) {
             "actuator_order", fmt::format("{}, {}.{}", one, kind, j + 1),
             fmt::format("{} and {}.{} exchanged", one, kind, j + 1),
             [part = part, i, j](auto& values) { std::swap((values.*part)[i], (values.*part)[j]); },
-            -std::log(static_cast<double>(n * (n - 1) / 2)));
+            -std::log(static_cast<double>(n) * static_cast<double>(n - 1) / 2));
     }
     if (n < 2) continue;
     change("actuator_reversed", kind, fmt::format("all of {} reversed", kind), scaled_parts(part, 0, n, -1));

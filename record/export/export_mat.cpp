@@ -140,7 +140,8 @@ std::vector<double> as_seconds(const NanosecondColumn& column) {
   std::vector<double> rows(column.rows.size());
   std::ranges::transform(column.rows, rows.begin(), [](std::int64_t ns) {
     if (ns == NanosecondColumn::kAbsent) return std::numeric_limits<double>::quiet_NaN();
-    return static_cast<double>(ns / 1'000'000'000) + static_cast<double>(ns % 1'000'000'000) * 1e-9;
+    const std::int64_t whole_s = ns / 1'000'000'000;
+    return static_cast<double>(whole_s) + static_cast<double>(ns % 1'000'000'000) * 1e-9;
   });
   return rows;
 }

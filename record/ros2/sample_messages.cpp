@@ -249,15 +249,14 @@ class Maker {
     return {q.x(), q.y(), q.z(), q.w()};
   }
   template <class Message>
-  void add(std::string_view name, std::string frame, Message message) {
-    append("/navcal/" + device_ + (device_.empty() ? "" : "/") + std::string(name), std::move(frame),
-           std::move(message));
+  void add(std::string_view name, const std::string& frame, Message message) {
+    append("/navcal/" + device_ + (device_.empty() ? "" : "/") + std::string(name), frame, std::move(message));
   }
   template <class Message>
-  void append(std::string topic, std::string frame, Message message) {
+  void append(std::string topic, const std::string& frame, Message message) {
     static const ros2::MessageType* const type = ros2::written_type(ros2::full_name(Message::kType));
     message.header.set_stamp(utc_ns_);
-    message.header.frame_id = std::move(frame);
+    message.header.frame_id = frame;
     made_.push_back({std::move(topic), type, utc_ns_, ros2::encode(message)});
   }
 

@@ -27,7 +27,7 @@ struct UbxEpoch {
 namespace ubx = protocols::ubx;
 
 constexpr std::int64_t kGpsEpoch_s = 315'964'800;  // 1980-01-06 as a Unix time
-constexpr std::int64_t kUbxWeek_ms = 7 * 86400 * 1000LL;
+constexpr std::int64_t kUbxWeek_ms = 7LL * 86400 * 1000;
 constexpr double kSettledTime_s = 30e-9;
 constexpr double kUnknownError_m = 4294967.295;  // the largest that the message holds
 constexpr double kNoDop = 99.99;

@@ -68,7 +68,7 @@ std::uint8_t VectorNav::set(std::int64_t t_ns, const vn::Register& wanted) {
   if (wanted.number == vn::kBinaryOutput1) return set_output(t_ns, wanted.values);
   const auto value = protocols::integer<int>(wanted.values);
   if (wanted.number == vn::kAsyncType) {
-    if (value != 0 && value != kYmr) return kInvalidParameter;
+    if (!value || (*value != 0 && *value != kYmr)) return kInvalidParameter;
     line_type_ = *value;
   } else if (wanted.number == vn::kAsyncRate) {
     if (!value || *value < 1 || *value > 200 || 200 % *value != 0) return kInvalidParameter;

@@ -123,8 +123,8 @@ LayoutVehicle::MassMatrix LayoutVehicle::mass_matrix(const ActuatorNumbers& mass
 }
 
 LayoutVehicle::Held::Held(const LayoutVehicle& vehicle, const ActuatorValues& at, const Influences& on)
-    : moved_(vehicle.layout_.moving_masses.size() > 0 ? std::optional(vehicle.mass_matrix(at.masses_m))
-                                                      : std::nullopt),
+    : moved_(vehicle.layout_.moving_masses.empty() ? std::nullopt
+                                                   : std::optional(vehicle.mass_matrix(at.masses_m))),
       mass(moved_ ? moved_->mass : vehicle.at_zero_.mass),
       mass_inverse(moved_ ? moved_->inverse : vehicle.at_zero_.inverse), restoring(vehicle.restoring_at_zero_),
       actuators(at), influences(on) {

@@ -245,7 +245,7 @@ void SignalKFeed::publish(SignalKUpdate update) {
 
 std::shared_ptr<SignalKFeed> add_signalk(Hub& hub, Site& site, const std::string& vessel,
                                          const std::string& version) {
-  const auto feed = std::make_shared<SignalKFeed>(hub, "vessels." + vessel, version);
+  auto feed = std::make_shared<SignalKFeed>(hub, "vessels." + vessel, version);
   site.add("GET", "/signalk", [version](const Request& request) -> boost::asio::awaitable<Response> {
     const auto host = request[boost::beast::http::field::host];
     co_return respond_json(boost::beast::http::status::ok, signalk_discovery({host.data(), host.size()}, version));

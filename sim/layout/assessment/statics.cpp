@@ -21,7 +21,7 @@ Swing swing_about(int axis, double stiffness_Nm, const Matrix6& mass_inverse, co
   if (!(square > 0)) return {};
   const double omega = std::sqrt(square);
   return {2 * std::numbers::pi / omega,
-          linear[static_cast<std::size_t>(7 * axis)] * mass_inverse(axis, axis) / (2 * omega)};
+          linear[7 * static_cast<std::size_t>(axis)] * mass_inverse(axis, axis) / (2 * omega)};
 }
 
 }  // namespace

@@ -204,9 +204,9 @@ void LayoutAutopilot::allocate(const autopilot::Demand& demand, const Body& body
   request.saturation = autopilot::Saturation::least_squares;
   for (std::size_t i = 0; i < 6; ++i)
     request.weights[static_cast<Eigen::Index>(i)] = plan_.commanded[i] ? (i < 3 ? 1 : kAttitude) : 0;
-  autopilot::Allocation allocation = allocator_.allocate(request);
-  commands.thrusters = std::move(allocation.thruster_commands);
-  commands.surfaces_rad = std::move(allocation.surfaces_rad);
+  const autopilot::Allocation allocation = allocator_.allocate(request);
+  commands.thrusters = allocation.thruster_commands;
+  commands.surfaces_rad = allocation.surfaces_rad;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, commands.surfaces_rad.size()); ++i) {
     if (demand.fins_rad[i]) commands.surfaces_rad[i] = *demand.fins_rad[i];
     last_.fins_rad[static_cast<Eigen::Index>(i)] = commands.surfaces_rad[i];
