@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "record/ros2/sample_messages.h"
 #include "tests/web/foxglove_link.h"
 #include "tests/web/web_server.h"
 #include "web/foxglove/peer.h"
@@ -77,6 +78,56 @@ TEST_F(FoxgloveViewer, IsGreetedAndToldOfAllTopicsAndOfFoxglovesOwn) {
        {"/imu", "/nav", "/gps", "/event", "/foxglove/location", "/foxglove/pose", "/foxglove/tf", "/foxglove/log"})
     EXPECT_TRUE(told.contains(topic)) << topic;
   EXPECT_EQ(told.size(), 8U);
+}
+
+constexpr const char* kImu = R"({"device":"imu 1","rate_rad_s":[0.1,0.2,0.3],"rate_std_rad_s":0.01})";
+
+TEST_F(FoxgloveViewer, IsToldOfTopicsOfRosWithTheFirstMessageThatHasOne) {
+  const auto one = viewer();
+  channels(*one);
+  publish("/imu", std::nullopt, kImu);
+  publish("/imu", kStart_ns, R"({"device":"imu 1","temperature_C":null})");
+  publish("/event", kStart_ns, R"({"severity":"info","name":"mark"})");
+  EXPECT_TRUE(one->link.take("advertise").empty()) << "without UTC there is no stamp; the others have no type in ROS";
+  publish("/imu", kStart_ns, kImu);
+  const auto told = one->link.take("advertise");
+  ASSERT_EQ(told.size(), 1U);
+  const auto& channel = told[0]["channels"][0];
+  EXPECT_EQ(channel["topic"], "/navcal/imu_1/data");
+  EXPECT_EQ(channel["encoding"], "cdr");
+  EXPECT_EQ(channel["schemaEncoding"], "ros2msg");
+  EXPECT_EQ(channel["schemaName"], "sensor_msgs/msg/Imu");
+  EXPECT_NE(channel["schema"].get<std::string>().find("MSG: geometry_msgs/Vector3"), std::string::npos);
+  publish("/imu", kStart_ns + 1, kImu);
+  EXPECT_TRUE(one->link.take("advertise").empty()) << "told once";
+  EXPECT_TRUE(channels(*viewer()).contains("/navcal/imu_1/data")) << "who comes later is told at once";
+  hub.set_topics(topics({"/nav"}));
+  EXPECT_FALSE(channels(*viewer()).contains("/navcal/imu_1/data")) << "its source has gone";
+}
+
+TEST_F(FoxgloveViewer, EachViewerIsToldOfANewTopicOfRos) {
+  const auto first = viewer(), second = viewer();
+  channels(*first), channels(*second);
+  publish("/imu", kStart_ns, kImu);
+  EXPECT_TRUE(channels(*first).contains("/navcal/imu_1/data"));
+  EXPECT_TRUE(channels(*second).contains("/navcal/imu_1/data"));
+}
+
+TEST_F(FoxgloveViewer, GetsMessagesOfRosAsABagHasThem) {
+  publish("/imu", kStart_ns, kImu);
+  const auto one = viewer();
+  one->subscribes(3, channels(*one)["/navcal/imu_1/data"]);
+  EXPECT_EQ(hub.demand().topics, (std::set<std::string, std::less<>>{"/imu"}));
+  one->link.messages();
+  publish("/imu", kStart_ns + 7, kImu);
+  publish("/imu", std::nullopt, kImu);
+  publish("/imu", kStart_ns + 8, R"({"device":"other","rate_rad_s":[1,2,3]})");
+  const auto got = one->link.messages();
+  const auto bag = record::SampleMessages().made_of("/imu", kImu, kStart_ns + 7);
+  ASSERT_EQ(bag.size(), 1U);
+  ASSERT_FALSE(got.empty());
+  EXPECT_EQ(got.back().payload, bag[0].cdr) << "the last one: the other port has a topic of its own";
+  EXPECT_EQ(got.back().time_ns, static_cast<std::uint64_t>(kStart_ns + 7));
 }
 
 TEST_F(FoxgloveViewer, EachStartHasASessionOfItsOwnAndEachViewerOfAStartTheSame) {

@@ -15,31 +15,6 @@
 namespace navcal::web::foxglove {
 namespace {
 
-using SchemaJson = nlohmann::ordered_json;
-
-SchemaJson object(const char* title, SchemaJson properties) {
-  return {{"title", title}, {"type", "object"}, {"properties", std::move(properties)}};
-}
-SchemaJson number(const char* description) { return {{"type", "number"}, {"description", description}}; }
-SchemaJson text(const char* description) { return {{"type", "string"}, {"description", description}}; }
-SchemaJson integer(const char* description) { return {{"type", "integer"}, {"description", description}}; }
-SchemaJson list_of(SchemaJson items) { return {{"type", "array"}, {"items", std::move(items)}}; }
-
-SchemaJson numbers(const char* title, std::initializer_list<const char*> names) {
-  SchemaJson properties;
-  for (const char* name : names) properties[name]["type"] = "number";
-  return object(title, std::move(properties));
-}
-
-/// Programs know a time by this title and these two members.
-SchemaJson time_schema() {
-  return object("time", {{"sec", {{"type", "integer"}, {"minimum", 0}}},
-                         {"nsec", {{"type", "integer"}, {"minimum", 0}, {"maximum", 999999999}}}});
-}
-
-SchemaJson vector_schema() { return numbers("foxglove.Vector3", {"x", "y", "z"}); }
-SchemaJson quaternion_schema() { return numbers("foxglove.Quaternion", {"x", "y", "z", "w"}); }
-
 using DerivedJson = nlohmann::ordered_json;
 
 /// Largest distance from the origin. Further away the tangent plane is off by more than 1 %, so the origin moves
@@ -164,70 +139,38 @@ void put_pose(Derived& derived, const nlohmann::json& message, std::int64_t time
 /// Bound of what is kept: a broken peer may name new topics without end.
 constexpr std::size_t kMaxChannels = 1024;
 
+bool has_source(const std::vector<std::string>& sources, const std::vector<Topic>& topics) {
+  return std::ranges::any_of(
+      topics, [&](const Topic& topic) { return std::ranges::find(sources, topic.name) != sources.end(); });
+}
+
 struct DerivedChannel {
   const char* topic;
-  const char* schema_name;
-  std::string schema;
+  std::string schema_name;
   std::vector<std::string> sources;
   std::optional<std::string> Derived::*member;
+  std::string schema{};
 };
 
 const std::vector<DerivedChannel>& derived_channels() {
-  static const std::vector<DerivedChannel> channels{
-      {"/foxglove/location", "foxglove.LocationFix", location_fix_schema(), {"/gps", "/nav"}, &Derived::location},
-      {"/foxglove/pose", "foxglove.PoseInFrame", pose_in_frame_schema(), {"/nav"}, &Derived::pose},
-      {"/foxglove/tf", "foxglove.FrameTransform", frame_transform_schema(), {"/nav"}, &Derived::transform},
-      {"/foxglove/log", "foxglove.Log", log_schema(), {"/event"}, &Derived::log},
-  };
+  static const std::vector<DerivedChannel> channels = [] {
+    std::vector<DerivedChannel> made{
+        {"/foxglove/location", "foxglove.LocationFix", {"/gps", "/nav"}, &Derived::location},
+        {"/foxglove/pose", "foxglove.PoseInFrame", {"/nav"}, &Derived::pose},
+        {"/foxglove/tf", "foxglove.FrameTransform", {"/nav"}, &Derived::transform},
+        {"/foxglove/log", "foxglove.Log", {"/event"}, &Derived::log},
+    };
+    const auto schemas = nlohmann::ordered_json::parse(schemas_json());
+    for (DerivedChannel& channel : made) {
+      const auto is_its = [&](const auto& schema) { return schema["title"] == channel.schema_name; };
+      channel.schema = std::ranges::find_if(schemas, is_its)->dump();
+    }
+    return made;
+  }();
   return channels;
 }
 
 }  // namespace
-
-std::string location_fix_schema() {
-  return object("foxglove.LocationFix",
-                {{"timestamp", time_schema()},
-                 {"frame_id", text("port of the receiver, or vehicle for what is reckoned")},
-                 {"latitude", number("deg")},
-                 {"longitude", number("deg")},
-                 {"altitude", number("m, of a fix above the ellipsoid, of what is reckoned above the surface")},
-                 {"position_covariance", list_of(number("m^2: east, north, up, row by row"))},
-                 {"position_covariance_type", integer("0 unknown, 1 approximated, 2 diagonal known, 3 known")},
-                 {"heading", number("rad, clockwise from true north")},
-                 {"velocity", vector_schema()},
-                 {"color", numbers("foxglove.Color", {"r", "g", "b", "a"})},
-                 {"metadata",
-                  list_of(object("foxglove.KeyValuePair", {{"key", text("name")}, {"value", text("value")}}))}})
-      .dump();
-}
-
-std::string pose_in_frame_schema() {
-  return object("foxglove.PoseInFrame",
-                {{"timestamp", time_schema()},
-                 {"frame_id", text("map: east, north, up")},
-                 {"pose",
-                  object("foxglove.Pose", {{"position", vector_schema()}, {"orientation", quaternion_schema()}})}})
-      .dump();
-}
-
-std::string frame_transform_schema() {
-  return object("foxglove.FrameTransform", {{"timestamp", time_schema()},
-                                            {"parent_frame_id", text("map: east, north, up")},
-                                            {"child_frame_id", text("vehicle: forward, port, up")},
-                                            {"translation", vector_schema()},
-                                            {"rotation", quaternion_schema()}})
-      .dump();
-}
-
-std::string log_schema() {
-  return object("foxglove.Log", {{"timestamp", time_schema()},
-                                 {"level", integer("2 info, 3 warning, 4 error, 5 alarm")},
-                                 {"message", text("port and message of the event")},
-                                 {"name", text("name of the event")},
-                                 {"file", text("empty")},
-                                 {"line", integer("0")}})
-      .dump();
-}
 
 Quaternion orientation_in_map(double heading_rad, double pitch_rad, double roll_rad) {
   const double yaw = (std::numbers::pi / 2 - heading_rad) / 2, pitch = -pitch_rad / 2, roll = roll_rad / 2;
@@ -239,10 +182,11 @@ Quaternion orientation_in_map(double heading_rad, double pitch_rad, double roll_
 
 Derived Deriver::derive(const Record& record, std::int64_t time_ns) {
   const bool is_fix = record.topic == "/gps", is_event = record.topic == "/event";
-  if (!is_fix && !is_event && record.topic != "/nav") return {};
-  const auto message = nlohmann::json::parse(record.message, nullptr, false);
-  if (!message.is_object()) return {};
   Derived derived;
+  if (record.utc_ns) derived.ros = ros_.made_of(record.topic, record.message, *record.utc_ns);
+  if (!is_fix && !is_event && record.topic != "/nav") return derived;
+  const auto message = nlohmann::json::parse(record.message, nullptr, false);
+  if (!message.is_object()) return derived;
   if (is_fix) {
     derived.location = location_of_fix(message, time_ns);
   } else if (is_event) {
@@ -274,13 +218,14 @@ std::vector<const Channel*> Channels::available(const std::vector<Topic>& topics
     if (channel != nullptr) found.push_back(channel);
   };
   for (const Topic& topic : topics)
-    add(known({0, {topic.name}, nullptr, {}}, topic.name, topic.schema_name, topic.schema));
+    add(known({.sources = {topic.name}}, topic.name, topic.schema_name, topic.schema));
   for (const DerivedChannel& derived : derived_channels()) {
-    const bool has_source = std::any_of(topics.begin(), topics.end(), [&](const Topic& topic) {
-      return std::find(derived.sources.begin(), derived.sources.end(), topic.name) != derived.sources.end();
-    });
-    if (has_source)
-      add(known({0, derived.sources, derived.member, {}}, derived.topic, derived.schema_name, derived.schema));
+    if (has_source(derived.sources, topics))
+      add(known({.sources = derived.sources, .member = derived.member}, derived.topic, derived.schema_name,
+                derived.schema));
+  }
+  for (const Channel* channel : ros_) {
+    if (has_source(channel->sources, topics)) add(channel);
   }
   return found;
 }
@@ -292,21 +237,40 @@ const Channel* Channels::known(Channel channel, const std::string& topic, const 
   if (found != channels_.end()) return &found->second;
   if (channels_.size() >= kMaxChannels) return nullptr;
   channel.id = static_cast<std::uint32_t>(channels_.size() + 1);
-  channel.announcement = foxglove::channel(channel.id, topic, schema_name, schema);
+  channel.announcement = foxglove::channel(channel.id, topic, schema_name, schema, !channel.ros_topic.empty());
   return &channels_.emplace(key, std::move(channel)).first->second;
+}
+
+std::size_t Channels::learn_ros(const Record& record, std::int64_t time_ns, std::uint64_t serial) {
+  for (const record::RosMessage& made : derived_of(record, time_ns, serial).ros) {
+    const std::size_t before = channels_.size();
+    const Channel* const channel = known({.sources = {std::string(record.topic)}, .ros_topic = made.topic},
+                                         made.topic, made.type->name, made.type->definition);
+    if (channels_.size() > before) ros_.push_back(channel);
+  }
+  return ros_.size();
 }
 
 std::optional<std::string_view> Channels::message(const Channel& channel, const Record& record,
                                                   std::int64_t time_ns, std::uint64_t serial) {
+  if (!channel.ros_topic.empty()) {
+    const auto& messages = derived_of(record, time_ns, serial).ros;
+    const auto found = std::ranges::find(messages, channel.ros_topic, &record::RosMessage::topic);
+    return found != messages.end() ? std::optional<std::string_view>(found->cdr) : std::nullopt;
+  }
   if (channel.member == nullptr) return record.message;
+  const auto& made = derived_of(record, time_ns, serial).*channel.member;
+  return made ? std::optional<std::string_view>(*made) : std::nullopt;
+}
+
+const Derived& Channels::derived_of(const Record& record, std::int64_t time_ns, std::uint64_t serial) {
   std::string from = std::string(record.topic) + ' ' + std::string(record.device);
   if (serial != derived_serial_ || from != derived_from_) {
     derived_ = deriver_.derive(record, time_ns);
     derived_serial_ = serial;
     derived_from_ = std::move(from);
   }
-  const auto& made = derived_.*channel.member;
-  return made ? std::optional<std::string_view>(*made) : std::nullopt;
+  return derived_;
 }
 
 }  // namespace navcal::web::foxglove

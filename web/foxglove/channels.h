@@ -6,19 +6,19 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "base/local_plane.h"
+#include "record/ros2/sample_messages.h"
 #include "web/hub.h"
 #include "web/record.h"
 
 namespace navcal::web::foxglove {
 
-[[nodiscard]] std::string location_fix_schema();
-[[nodiscard]] std::string pose_in_frame_schema();
-[[nodiscard]] std::string frame_transform_schema();
-[[nodiscard]] std::string log_schema();
+/// The JSON schemas of Foxglove that navcal writes: a list, each with its name as `title`.
+[[nodiscard]] std::string_view schemas_json();
 
 struct Quaternion {
   double x = 0, y = 0, z = 0, w = 1;
@@ -33,6 +33,7 @@ struct Derived {
   std::optional<std::string> pose;       ///< foxglove.PoseInFrame
   std::optional<std::string> transform;  ///< foxglove.FrameTransform
   std::optional<std::string> log;        ///< foxglove.Log
+  std::vector<record::RosMessage> ros;   ///< as in a bag of ROS 2; none while UTC is unknown
 };
 
 /// Standard error that stands for an unknown one, m: so large that no filter is led by the value.
@@ -40,7 +41,7 @@ inline constexpr double kUnknownStd_m = 1e6;
 
 class Deriver {
  public:
-  /// `time_ns`: time of validity, UTC. A record that is no JSON object, or of another topic, gives nothing.
+  /// `time_ns`: time of validity, UTC. A record that is no JSON object gives nothing.
   [[nodiscard]] Derived derive(const Record& record, std::int64_t time_ns);
 
  private:
@@ -48,6 +49,7 @@ class Deriver {
   [[nodiscard]] std::array<double, 2> position_in_map(double latitude_deg, double longitude_deg);
 
   std::optional<base::LocalPlane> origin_;
+  record::SampleMessages ros_;
 };
 
 /// A stream of messages that viewers may subscribe to.
@@ -56,7 +58,8 @@ struct Channel {
   std::vector<std::string> sources;  ///< topics of records from which its messages are made
   /// Member of Derived that it has; null: the messages are those of the records.
   std::optional<std::string> Derived::*member = nullptr;
-  std::string announcement;  ///< for advertise()
+  std::string ros_topic{};     ///< not empty: its messages are those of this topic of ROS, in CDR
+  std::string announcement{};  ///< for advertise()
 };
 
 /// The channels of all viewers. A channel keeps its id as long as the program runs, because viewers keep what they
@@ -66,6 +69,10 @@ class Channels {
   /// Those that can be had from these topics. The pointers stay valid.
   [[nodiscard]] std::vector<const Channel*> available(const std::vector<Topic>& topics);
 
+  /// Adds the channels of ROS that `record` has messages for: their topics carry names of ports, which no list of
+  /// topics tells. How many there are.
+  std::size_t learn_ros(const Record& record, std::int64_t time_ns, std::uint64_t serial);
+
   /// Message of `record` for `channel`; the view holds until the next call. Nullopt: the record gives none.
   /// `serial` numbers the records: what is derived from one is kept for the next viewer.
   [[nodiscard]] std::optional<std::string_view> message(const Channel& channel, const Record& record,
@@ -74,8 +81,10 @@ class Channels {
  private:
   const Channel* known(Channel channel, const std::string& topic, const std::string& schema_name,
                        const std::string& schema);
+  const Derived& derived_of(const Record& record, std::int64_t time_ns, std::uint64_t serial);
 
   std::map<std::tuple<std::string, std::string, std::string>, Channel> channels_;
+  std::vector<const Channel*> ros_;
   Deriver deriver_;
   Derived derived_;
   std::string derived_from_;  ///< topic and device

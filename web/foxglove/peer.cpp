@@ -41,6 +41,7 @@ class Viewer final : public Peer, public Subscriber {
   void on_open() override {
     shared_->hub.add(*this, {});
     link_.send_text(server_info("navcal", shared_->version, shared_->session));
+    shared_->hub.repeat_newest([this](const Record& record) { learn_ros(record); });
     tell_channels();
     const Link& source = shared_->hub.link();
     if (!source.connected) tell(StatusLevel::warning, source.problem);
@@ -63,7 +64,10 @@ class Viewer final : public Peer, public Subscriber {
     const auto report = drops_.report(shared_->clock());
     if (report) link_.send_text(status(StatusLevel::warning, *report, "dropped"));
   }
-  void on_record(const Record& record) override { deliver(record, nullptr); }
+  void on_record(const Record& record) override {
+    if (learn_ros(record)) tell_channels();
+    deliver(record, nullptr);
+  }
   void on_link(const Link& state) override {
     if (!state.problem.empty()) tell(StatusLevel::warning, state.problem);
     tell_channels();
@@ -71,6 +75,12 @@ class Viewer final : public Peer, public Subscriber {
   void on_topics() override { tell_channels(); }
 
  private:
+  /// Whether there are more channels of ROS than before.
+  bool learn_ros(const Record& record) {
+    const std::size_t known = ros_channels_;
+    ros_channels_ = shared_->channels.learn_ros(record, time_of(record), shared_->hub.published());
+    return ros_channels_ > known;
+  }
   void tell(StatusLevel level, std::string_view message) { link_.send_text(status(level, message)); }
   /// Tells the client what has changed since it was last told. When its queue is full, this is done once it has
   /// read.
@@ -195,6 +205,7 @@ class Viewer final : public Peer, public Subscriber {
 
   std::shared_ptr<Shared> shared_;
   PeerLink& link_;
+  std::size_t ros_channels_ = 0;
   std::map<std::uint32_t, const Channel*> told_;           ///< channels that the client knows of, by id
   std::map<std::uint32_t, const Channel*> subscriptions_;  ///< by the client's id
   std::set<std::uint32_t> ended_;  ///< subscriptions that ended with their channels: the client may end them, too

@@ -93,13 +93,13 @@ std::string unadvertise(const std::vector<std::uint32_t>& channels) {
 }
 
 std::string channel(std::uint32_t id, std::string_view topic, std::string_view schema_name,
-                    std::string_view schema) {
+                    std::string_view schema, bool is_ros) {
   return json_text({{"id", id},
                     {"topic", topic},
-                    {"encoding", "json"},
+                    {"encoding", is_ros ? "cdr" : "json"},
                     {"schemaName", schema_name},
                     {"schema", schema},
-                    {"schemaEncoding", "jsonschema"}});
+                    {"schemaEncoding", is_ros ? "ros2msg" : "jsonschema"}});
 }
 
 std::string message_data(std::uint32_t subscription, std::uint64_t time_ns, std::string_view payload) {

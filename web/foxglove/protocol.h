@@ -18,9 +18,10 @@ enum class StatusLevel { info = 0, warning = 1, error = 2 };
 /// `channels` are JSON objects.
 [[nodiscard]] std::string advertise(const std::vector<std::string_view>& channels);
 [[nodiscard]] std::string unadvertise(const std::vector<std::uint32_t>& channels);
-/// A channel with JSON messages and a JSON schema, for advertise().
+/// A channel for advertise(): of JSON messages with a JSON schema, or of messages of ROS in CDR with their
+/// definition.
 [[nodiscard]] std::string channel(std::uint32_t id, std::string_view topic, std::string_view schema_name,
-                                  std::string_view schema);
+                                  std::string_view schema, bool is_ros = false);
 /// Binary: a message for one subscription. `time_ns` is UTC.
 [[nodiscard]] std::string message_data(std::uint32_t subscription, std::uint64_t time_ns,
                                        std::string_view payload);

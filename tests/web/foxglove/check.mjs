@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Foxglove's own client (@foxglove/ws-protocol) against navcal-web and navcald on emulated instruments. What it gets live must be
-// what the log has, byte for byte; Foxglove's own schemas (@foxglove/schemas) judge what is derived.
+// what the log has, byte for byte; Foxglove's own schemas (@foxglove/schemas) judge what is derived. Messages of ROS 2 must be those
+// of the bag that is made of the log, and Foxglove's own reader of them must understand them.
 //   node check.mjs BUILD_FOLDER FOLDER
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { parse } from "@foxglove/rosmsg";
+import { MessageReader } from "@foxglove/rosmsg2-serialization";
+import zstd from "@foxglove/wasm-zstd";
 import { McapStreamReader } from "@mcap/core";
 import Ajv from "ajv";
 import WebSocket from "ws";
@@ -16,12 +22,12 @@ const foxgloveSchemas = require("@foxglove/schemas/jsonschema");
 const [build, folder] = process.argv.slice(2);
 const vehicle = new Vehicle(build, folder);
 
-/** {topic: [{text, publishTime}]}, {schema name: text} */
+/** {topic: [{text, bytes, publishTime}]}, {schema name: text} */
 function readLogs(paths) {
   const topics = new Map(), schemas = new Map();
   for (const path of paths) {
     const channels = new Map();
-    const reader = new McapStreamReader();
+    const reader = new McapStreamReader({ decompressHandlers: { zstd: (chunk, size) => zstd.decompress(chunk, Number(size)) } });
     reader.append(contents(path));
     for (let record; (record = reader.nextRecord()); ) {
       if (record.type === "Schema") schemas.set(record.name, Buffer.from(record.data).toString("utf8"));
@@ -29,7 +35,8 @@ function readLogs(paths) {
       if (record.type !== "Message") continue;
       const { topic } = channels.get(record.channelId);
       if (!topics.has(topic)) topics.set(topic, []);
-      topics.get(topic).push({ text: Buffer.from(record.data).toString("utf8"), publishTime: record.publishTime });
+      const bytes = Buffer.from(record.data);
+      topics.get(topic).push({ bytes, text: bytes.toString("utf8"), publishTime: record.publishTime });
     }
   }
   return { topics, schemas };
@@ -55,15 +62,23 @@ function timeIn(text) {
   return BigInt(seconds + fraction);
 }
 
+/** Topics of ROS 2, their types, and what stands in a message. */
+const ROS = new Map([
+  ["/navcal/imu/data", ["sensor_msgs/msg/Imu", ({ angular_velocity }) => Number.isFinite(angular_velocity.z)]],
+  ["/navcal/compass/mag", ["sensor_msgs/msg/MagneticField", ({ magnetic_field: { x, y, z } }) => Math.hypot(x, y, z) < 1e-3]],
+  ["/navcal/gps/fix", ["sensor_msgs/msg/NavSatFix", ({ header }) => header.frame_id === "gps"]],
+  ["/diagnostics", ["diagnostic_msgs/msg/DiagnosticArray", ({ status }) => status.length > 3]],
+]);
+
 async function showsAllTopics() {
   const viewer = new Viewer(vehicle.webPort, ["foxglove.websocket.v1"]);
-  await eventually(() => viewer.channels.has("/foxglove/tf"), "channels");
+  await eventually(() => ["/foxglove/tf", ...ROS.keys()].every((topic) => viewer.channels.has(topic)), `channels, of ROS as well: ${[...viewer.channels.keys()]}`);
   assert.equal(viewer.socket.protocol, "foxglove.websocket.v1");
   assert.equal(viewer.info.name, "navcal");
   assert.deepEqual(viewer.info.capabilities, ["time"]);
   assert.match(viewer.info.metadata.version, /^\d+\.\d+/);
   for (const topic of viewer.channels.keys()) viewer.subscribe(topic);
-  const wanted = ["/compass", "/imu", "/gps", "/motor", "/nav", "/health", "/foxglove/location", "/foxglove/pose", "/foxglove/tf"];
+  const wanted = ["/compass", "/imu", "/gps", "/motor", "/nav", "/health", "/foxglove/location", "/foxglove/pose", "/foxglove/tf", ...ROS.keys()];
   await eventually(() => wanted.every((topic) => viewer.of(topic).length >= 5), `messages of all of ${wanted}; there are ` + [...viewer.messages].map(([topic, list]) => `${topic} ${list.length}`));
   viewer.early = new Map([...viewer.messages].map(([topic, list]) => [topic, list.length]));
   return viewer;
@@ -86,6 +101,31 @@ function judgeDerived(viewer) {
       for (const key of Object.keys(message)) assert.ok(named.includes(key), `${topic}: the schema does not name ${key}`);
     }
   }
+}
+
+/** Messages of ROS 2 are those of the bag that navcal makes of the log, in its order and can be read by their definition. */
+async function judgeRos(viewer, live, log) {
+  const bag = join(folder, "bag.mcap");
+  execFileSync(join(build, "cli/navcal"), ["log", "export", "--ros2", bag, log], { stdio: "pipe" });
+  await zstd.isLoaded;
+  const { topics } = readLogs([bag]);
+  let judged = 0;
+  for (const [topic, [type, isRight]] of ROS) {
+    const channel = viewer.channels.get(topic), logged = topics.get(topic) ?? [];
+    assert.deepEqual([channel.encoding, channel.schemaEncoding, channel.schemaName], ["cdr", "ros2msg", type], topic);
+    const reader = new MessageReader(parse(channel.schema, { ros2: true }));
+    let at = -1;
+    for (const { bytes, timestamp } of live.get(topic)) {
+      const message = reader.readMessage(bytes);
+      assert.ok(isRight(message), `${topic}: ${JSON.stringify(message)}`);
+      const { sec, nsec, nanosec } = message.header.stamp;
+      assert.equal(BigInt(sec) * 1_000_000_000n + BigInt(nanosec ?? nsec), timestamp, `${topic}: time of validity`);
+      at = logged.findIndex((other, position) => position > at && other.bytes.equals(bytes));
+      assert.ok(at >= 0, `${topic}: the bag has the message of ${timestamp}, in its order`);
+      judged++;
+    }
+  }
+  return judged;
 }
 
 /** Every topic and key that the installed layouts name is there. */
@@ -166,19 +206,21 @@ try {
   await survivesTheDaemon(viewer);
   const { topics, schemas } = readLogs(vehicle.logs().sort().slice(0, 1));
   let compared = 0;
+  const isOfRos = (topic) => viewer.channels.get(topic).encoding === "cdr";
+  const judged = await judgeRos(viewer, live, vehicle.logs().sort()[0]);
   for (const [topic, messages] of live) {
-    if (topic.startsWith("/foxglove/") || messages.length === 0) continue;
+    if (topic.startsWith("/foxglove/") || isOfRos(topic) || messages.length === 0) continue;
     compare(topic, messages, topics.get(topic) ?? [], viewer.early.get(topic));
     for (const { text, timestamp } of messages) if (/"time":\d/.test(text)) assert.equal(timestamp, timeIn(text), `${topic}: time of validity`);
     compared += messages.length;
   }
   for (const { topic, schemaName, schema } of viewer.channels.values()) {
-    if (!topic.startsWith("/foxglove/")) assert.equal(schema, schemas.get(schemaName), `${topic}: the log's schema`);
+    if (!topic.startsWith("/foxglove/") && !isOfRos(topic)) assert.equal(schema, schemas.get(schemaName), `${topic}: the log's schema`);
   }
   viewer.times.slice(1).forEach((time, i) => assert.ok(time > viewer.times[i], "the time only goes forward"));
   assert.deepEqual(viewer.errors, []);
   assert.equal(await vehicle.stop(vehicle.web), 0, "navcal-web ends well with a viewer connected");
-  console.log(`${compared} messages are those of the log; ${[...live].map(([topic, list]) => `${topic} ${list.length}`).join(", ")}`);
+  console.log(`${compared} messages are those of the log, ${judged} those of its bag; ${[...live].map(([topic, list]) => `${topic} ${list.length}`).join(", ")}`);
 } catch (error) {
   console.error(error, vehicle.diagnostics());
   process.exitCode = 1;

@@ -20,7 +20,8 @@ export class Viewer {
     this.client.on("error", (error) => this.errors.push(error));
     this.client.on("message", ({ subscriptionId, timestamp, data }) => {
       const topic = this.topics.get(subscriptionId);
-      this.messages.get(topic).push({ timestamp, text: Buffer.from(data.buffer, data.byteOffset, data.byteLength).toString("utf8") });
+      const bytes = Buffer.from(data.buffer, data.byteOffset, data.byteLength);
+      this.messages.get(topic).push({ timestamp, bytes, text: bytes.toString("utf8") });
     });
   }
   subscribe(topic) {
