@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -89,7 +90,8 @@ namespace {
 
 namespace mavlink = protocols::mavlink;
 
-constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kParameter = 22;
+constexpr std::uint32_t kHeartbeat = 0, kAck = 77, kCommand = 76, kHighresImu = 105, kParameter = 22,
+                        kTimesync = 111;
 constexpr std::uint16_t kSetMessageInterval = 511;
 constexpr std::uint8_t kOurComponent = 197, kOnboardController = 18;
 constexpr int kHeartbeatsOfRound = 30;  // heartbeats; then a ground station may have asked for other rates
@@ -120,6 +122,7 @@ class StartUpMavlink final : public StartUp {
   Script script() override {
     for (;;) {
       vehicle_.reset();
+      round_trip_ns_.reset();
       enter("waiting for the heartbeat of an autopilot");
       while (!vehicle_)
         co_await wait(base::kSecond_ns, [this](const protocols::Frame&) { return vehicle_.has_value(); });
@@ -139,6 +142,7 @@ class StartUpMavlink final : public StartUp {
         for (const Request& request : requests_) {
           if (request.first == imu_ && has_high_resolution) continue;
           co_await send(heartbeat(), 0);
+          if (is_time_due()) co_await send(time_request(), 0);
           result_ = kNoAnswer;
           const bool is_answered = co_await ask(interval(request), is_answering ? 3 : 1, base::kSecond_ns / 2,
                                                 [this](const protocols::Frame&) { return result_ != kNoAnswer; });
@@ -153,12 +157,14 @@ class StartUpMavlink final : public StartUp {
         refused_ = refused;
         unanswered_ = is_answering ? unanswered : "";
         enter(fmt::format(
-                  "running, system {}{}; the compass's own calibration {}", *vehicle_,
-                  is_answering ? "" : "; nothing answers, navcal goes on by what comes",
+                  "running, system {}{}{}; the compass's own calibration {}", *vehicle_,
+                  is_answering ? "" : "; nothing answers, navcal goes on by what comes", delay_words(),
                   compass_.measured_uT(unit_, {}, 0.0) ? "is undone" : "is not known, and stays in the field"),
               true);
-        for (int i = 0; i < kHeartbeatsOfRound && !restarted_ && now_ns() - heard_ns_ < kAutopilotLost_ns; ++i)
+        for (int i = 0; i < kHeartbeatsOfRound && !restarted_ && now_ns() - heard_ns_ < kAutopilotLost_ns; ++i) {
+          if (is_time_due()) co_await send(time_request(), 0);
           co_await send(heartbeat(), base::kSecond_ns);
+        }
       }
     }
   }
@@ -182,12 +188,35 @@ class StartUpMavlink final : public StartUp {
       parameter_ = payload.text(8, 16);
       compass_.take(parameter_, payload.at<float>(0));
     }
+    if (message.id == kTimesync && asked_ns_ && payload.at<std::int64_t>(0) != 0 &&
+        payload.at<std::int64_t>(8) == *asked_ns_) {
+      round_trip_ns_ = std::min(now_ns() - *asked_ns_, round_trip_ns_.value_or(INT64_MAX));
+      asked_ns_.reset();
+    }
     if (message.id != 30) return;
     const auto boot_ms = payload.at<std::uint32_t>(0);
     if (boot_ms < boot_ms_ && boot_ms_ - boot_ms > 1000) restarted_ = true;
     boot_ms_ = boot_ms;
   }
 
+  /// One question at a time, or a late answer would be taken for none.
+  [[nodiscard]] bool is_time_due() const { return !asked_ns_ || now_ns() - *asked_ns_ >= base::kSecond_ns; }
+  /// TIMESYNC. Half of the way there and back is no time of the vehicle: one way may be slower than the other. The
+  /// whole is a bound of the delay that is always there, which no stamp shows.
+  std::vector<std::uint8_t> time_request() {
+    asked_ns_ = now_ns();
+    return mavlink::encode(kTimesync, sender(),
+                           protocols::packed_le(std::int64_t{0}, *asked_ns_, *vehicle_, mavlink::kAutopilot));
+  }
+  /// In steps: each change of the words is an event.
+  [[nodiscard]] std::string delay_words() const {
+    if (!round_trip_ns_) return "";
+    for (const int bound_ms : {1, 2, 5, 10, 20, 50, 100, 200, 500}) {
+      if (*round_trip_ns_ <= bound_ms * base::kMillisecond_ns)
+        return fmt::format("; times late by at most {} ms on the link", bound_ms);
+    }
+    return "; times may be late by half a second or more on the link";
+  }
   std::vector<std::uint8_t> heartbeat() { return mavlink::encode_heartbeat(sender(), kOnboardController); }
   std::vector<std::uint8_t> interval(const Request& request) {
     std::array<std::uint8_t, 33> payload{};
@@ -214,6 +243,8 @@ class StartUpMavlink final : public StartUp {
   std::uint32_t imu_ = 0;  ///< the message of the inertial unit, without HIGHRES_IMU
   std::optional<std::uint8_t> vehicle_;
   std::int64_t heard_ns_ = 0;
+  std::optional<std::int64_t> asked_ns_;       ///< when the clock of the autopilot was asked for
+  std::optional<std::int64_t> round_trip_ns_;  ///< the least until its answer
   std::uint32_t boot_ms_ = 0;
   std::uint8_t sequence_ = 0;
   int result_ = kNoAnswer;  ///< of the newest request

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -144,6 +145,9 @@ TEST_F(MavlinkVehicle, IsReadAskedAndStampedByItsOwnClock) {
     if (std::abs(late_s) < 1.96 * sample["time_std"].get<double>()) ++within;
     ++readings;
   }
+  EXPECT_TRUE(std::ranges::any_of(samples, [](const json& sample) {
+    return sample.value("message", "").find("times late by at most") != std::string::npos;
+  })) << "by TIMESYNC";
   EXPECT_EQ(kinds["IMU"], ticks);
   EXPECT_GE(kinds["COMPASS"], ticks * 65 / 100)
       << "the tilt, and the field when it changes and its calibration is known";

@@ -219,6 +219,9 @@ struct FakeAutopilot {
   std::vector<std::uint32_t> asked{};
   int heartbeats = 0;
   std::uint32_t ignored = 0;  ///< message that is not answered for
+  std::vector<std::int64_t>
+      way_back_ns{};               ///< of answers to TIMESYNC, the last one for all that follow; empty: none
+  std::int64_t time_error_ns = 0;  ///< of what they say that they answer
 
   void operator()(test::Dialogue& dialogue, const std::string& command) {
     const auto found =
@@ -227,6 +230,13 @@ struct FakeAutopilot {
     EXPECT_EQ(found.message.component, 197);
     if (found.message.id == 0) ++heartbeats;
     const mavlink::Payload payload(found.message.payload);
+    if (found.message.id == 111 && !way_back_ns.empty()) {
+      EXPECT_EQ(payload.at<std::int64_t>(0), 0);
+      EXPECT_EQ(payload.at<std::int64_t>(8), dialogue.now_ns());
+      say(dialogue, 111, Fields{}.put(std::int64_t{77}).put(dialogue.now_ns() + time_error_ns),
+          way_back_ns.front());
+      if (way_back_ns.size() > 1) way_back_ns.erase(way_back_ns.begin());
+    }
     if (found.message.id == 20 && knows_calibration && !is_deaf) {
       EXPECT_EQ(payload.at<std::int16_t>(0), -1);
       const std::string name = payload.text(4, 16);
@@ -240,9 +250,10 @@ struct FakeAutopilot {
     const std::uint8_t result = asked.back() == 105 && !has_high_resolution ? 3 : 0;
     if (!is_deaf && asked.back() != ignored) say(dialogue, 77, Fields{}.put(std::uint16_t{511}).put(result));
   }
-  static void say(test::Dialogue& dialogue, std::uint32_t id, const Fields& fields) {
+  static void say(test::Dialogue& dialogue, std::uint32_t id, const Fields& fields,
+                  std::int64_t delay_ns = 20 * base::kMillisecond_ns) {
     const auto frame = mavlink::encode(id, {1, 1, 0}, fields.bytes);
-    dialogue.answer(mavlink::message_of(id)->name, {frame.begin(), frame.end()});
+    dialogue.answer(mavlink::message_of(id)->name, {frame.begin(), frame.end()}, delay_ns);
   }
 };
 
@@ -345,6 +356,32 @@ TEST_F(MavlinkDialogue, SaysOnceWhatIsNotAnsweredAndThatItIsSilent) {
                 "running, system 1; the compass's own calibration is undone; no answer to: GPS_RAW_INT"}));
   dialogue.run_for(50 * base::kSecond_ns);
   EXPECT_NE(dialogue.state().find("waiting for the heartbeat"), std::string::npos) << dialogue.state();
+}
+
+TEST_F(MavlinkDialogue, TheLeastRoundTripBoundsHowLateTimesAre) {
+  constexpr std::int64_t kMs = base::kMillisecond_ns;
+  autopilot.way_back_ns = {30 * kMs, 90 * kMs, 45 * kMs, 70 * kMs, 70 * kMs,
+                           70 * kMs, 70 * kMs, 4 * kMs,  70 * kMs};
+  dialogue.begin();
+  EXPECT_EQ(states_of(300), (std::vector<std::string>{
+                                "waiting for the heartbeat of an autopilot", "asking system 1 for its messages",
+                                "running, system 1; times late by at most 50 ms on the link; the compass's "
+                                "own calibration is undone",
+                                "running, system 1; times late by at most 5 ms on the link; the compass's "
+                                "own calibration is undone"}));
+  autopilot.way_back_ns = {400 * kMs};
+  dialogue.run_for(20 * base::kSecond_ns);
+  live(10, 500);
+  EXPECT_NE(dialogue.state().find("at most 500 ms"), std::string::npos)
+      << "another link, perhaps: " << dialogue.state();
+}
+
+TEST_F(MavlinkDialogue, AnAnswerToAnothersQuestionBoundsNothing) {
+  autopilot.way_back_ns = {base::kMillisecond_ns};
+  autopilot.time_error_ns = 1;
+  dialogue.begin();
+  live(10, 100);
+  EXPECT_EQ(dialogue.state(), "running, system 1; the compass's own calibration is undone");
 }
 
 // A router's server endpoint sends and takes nothing. The requests without answer were said anew each round.

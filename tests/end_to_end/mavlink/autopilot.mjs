@@ -4,7 +4,7 @@
 //
 // Its clock is 30 ppm fast; each frame is sent 1 ms + 0 to 20 ms after its time. After half of the time it restarts: its clock
 // begins anew. It has added -50 mGauss to the first axis of its compass. Half of the frames of its echo sounder have the sum of
-// before their zeros were cut, as BlueOS sends them. The file that it writes has the true time of each inertial reading, what was
+// before their zeros were cut, as BlueOS sends them. It answers TIMESYNC. The file that it writes has the true time of each inertial reading, what was
 // sent, and what came.
 //
 // OPTIONS is a JSON object: `parameters` {name: [value, type]} are all that it has, and may be set; `most` {name: value} clamps
@@ -93,6 +93,9 @@ splitter.pipe(new MavLinkPacketParser()).on("data", (packet) => {
     what.parameter = said.paramId;
     const paramValue = said.paramId.includes("_DIA_") ? 1 : said.paramId === "COMPASS_OFS_X" ? -50 : 0;
     send(frame(common.ParamValue, { paramId: said.paramId, paramValue, paramCount: 900, paramIndex: 65535, paramType: 9 }));
+  } else if (id === common.TimeSync.MSG_ID && said.tc1 === 0n) {
+    const answer = frame(common.TimeSync, { tc1: process.hrtime.bigint(), ts1: said.ts1, targetSystem: 0, targetComponent: 0 });
+    setTimeout(() => ended || send(answer), 1 + 20 * random()); // as slow as its other frames
   }
   came.push(what);
 });
@@ -143,5 +146,6 @@ for (let tick = 0; tick < 2 * half && !ended; ++tick) {
   frames.forEach(send);
 }
 if (!ended) await delay(1e3);
+ended = true;
 socket.close();
 writeFileSync(truth, JSON.stringify({ times, sent, came, bad, parameters }));
