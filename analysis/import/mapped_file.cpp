@@ -12,6 +12,7 @@
 
 #include "base/descriptor.h"
 #include "record/byte_source.h"
+#include "record/recording.h"
 
 namespace navcal::analysis {
 namespace {
@@ -45,7 +46,8 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   struct stat found {};
   if (!file || ::fstat(file.get(), &found) != 0) fail(errno);
   if (S_ISDIR(found.st_mode)) fail(EISDIR);
-  if (!S_ISREG(found.st_mode)) fail(ESPIPE);
+  if (!S_ISREG(found.st_mode))
+    throw record::BadRecording(path.string() + ": a pipe or a device; logs are read from files");
   size_ = static_cast<std::size_t>(found.st_size);
   if (size_ == 0) return;
   void* const mapped = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file.get(), 0);

@@ -29,6 +29,15 @@ TEST(MappedFile, WhatIsCutWhileItIsReadIsZeroAndTold) {
   EXPECT_FALSE(file.is_whole());
 }
 
+TEST(MappedFile, ADeviceIsRefusedByName) {
+  try {
+    const MappedFile file("/dev/null");
+    FAIL() << "it was read";
+  } catch (const record::BadRecording& error) {
+    EXPECT_STREQ(error.what(), "/dev/null: a pipe or a device; logs are read from files");
+  }
+}
+
 TEST(MappedFile, AnImportOfAFileThatIsCutMeanwhileIsAnErrorAndLeavesNothing) {
   const test::TemporaryFolder folder;
   const auto map = folder / "map.toml", csv = folder / "dive.csv", log = folder / "dive.mcap";
