@@ -151,6 +151,17 @@ function(navcal_room name)
   endif()
 endfunction()
 
+# navcal_text(TARGET FILE NAMESPACE FUNCTION): a file of text becomes part of the program. FUNCTION in NAMESPACE returns it as
+# std::string_view; who calls it declares it.
+function(navcal_text target file text_namespace text_function)
+  set(text_file ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${text_file})
+  file(READ ${text_file} text_content)
+  file(RELATIVE_PATH text_file ${CMAKE_SOURCE_DIR} ${text_file})
+  configure_file(${CMAKE_SOURCE_DIR}/cmake/text.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/${text_function}.cpp @ONLY)
+  target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${text_function}.cpp)
+endfunction()
+
 # navcal_computing_target(): brings the libraries of the other build up to date before they are linked, and copies them.
 function(navcal_computing_target)
   get_property(targets GLOBAL PROPERTY NAVCAL_COMPUTING_TARGETS)

@@ -13,28 +13,12 @@
 #include "base/failure.h"
 
 namespace navcal::fleet {
+
+std::string_view catalogue_tables();  // catalogue.sql, which the build puts into the program
+
 namespace {
 
 constexpr int kCatalogueFormat = 1;
-
-constexpr const char* kTables = R"(
-CREATE TABLE IF NOT EXISTS files(
-  path TEXT PRIMARY KEY, bytes INTEGER NOT NULL, modified_ns INTEGER NOT NULL, recording TEXT NOT NULL
-) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS vehicles(vehicle TEXT PRIMARY KEY, name TEXT NOT NULL, toml TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS configurations(
-  configuration TEXT PRIMARY KEY, name TEXT NOT NULL, toml TEXT NOT NULL
-) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS banks(
-  bank TEXT PRIMARY KEY, recording TEXT NOT NULL, vehicle TEXT NOT NULL, configuration TEXT NOT NULL,
-  missions INTEGER NOT NULL, seed INTEGER NOT NULL, outline TEXT NOT NULL
-) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS tasks(
-  task INTEGER PRIMARY KEY, job TEXT NOT NULL, recording TEXT NOT NULL, vehicle TEXT NOT NULL,
-  configuration TEXT NOT NULL, bank TEXT NOT NULL, missions INTEGER NOT NULL, seed INTEGER NOT NULL,
-  key TEXT NOT NULL UNIQUE
-);
-)";
 
 [[noreturn]] void fail_of_format(const std::string& name) {
   throw base::Failure(base::Exit::bad_input,
@@ -84,7 +68,7 @@ bool is_recording(const fs::path& file) { return file.extension() == ".cap" || f
 void make_catalogue(Database& database, const std::string& name) {
   const int format = format_of(database);
   if (format != 0 && format != kCatalogueFormat) fail_of_format(name);
-  database.execute(kTables);
+  database.execute(std::string(catalogue_tables()));
   database.execute(fmt::format("PRAGMA user_version={}", kCatalogueFormat));
 }
 
