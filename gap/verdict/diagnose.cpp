@@ -118,16 +118,18 @@ std::vector<WhereEntry> leftover_of(const DiagnosisProblem& problem, const Found
 }
 
 /// The third step. Only the effects named go into the hold-outs' models; a prediction of a hold-out uses all
-/// parameters, tolerances included, because a vehicle is the same in all missions.
-Comparisons compare_all(const DiagnosisProblem& problem, const SearchResult& found, const HoldOuts& holdouts) {
+/// parameters, tolerances included, because a vehicle is the same in all missions. `without`: the tolerances
+/// alone, against which the hold-outs are predicted; null: they are not.
+Comparisons compare_all(const DiagnosisProblem& problem, const ModelFit& best, const HoldOuts& holdouts,
+                        const Eigen::VectorXd* without = nullptr) {
   const Library& library = problem.library;
-  Eigen::VectorXd members = Eigen::VectorXd::Zero(found.best.mean.size());
-  for (const Eigen::Index j : parameter_indices(library, found.best.effects)) members[j] = found.best.mean[j];
+  Eigen::VectorXd members = Eigen::VectorXd::Zero(best.mean.size());
+  for (const Eigen::Index j : parameter_indices(library, best.effects)) members[j] = best.mean[j];
   problem.progress("missions held out", 0);
   Comparisons result;
   result.others.resize(problem.others.size());
   result.holdouts.resize(holdouts.size());
-  result.predictions.resize(found.best.effects.empty() ? 0 : holdouts.size());
+  if (without != nullptr) result.predictions.resize(holdouts.size());
   base::in_parallel(problem.threads, holdouts.size() + 1 + problem.others.size(), [&](std::size_t i) {
     if (i == holdouts.size()) {
       result.here = compare(problem.prepared, library, members);
@@ -140,10 +142,7 @@ Comparisons compare_all(const DiagnosisProblem& problem, const SearchResult& fou
     }
     const Prepared& other = *holdouts[i];
     result.holdouts[i] = compare(other, library, members);
-    if (!result.predictions.empty()) {
-      result.predictions[i] =
-          predict_held_out(other.model(library, 1), found.mean_without_effects, found.best.mean);
-    }
+    if (without != nullptr) result.predictions[i] = predict_held_out(other.model(library, 1), *without, best.mean);
   });
   return result;
 }
@@ -207,9 +206,7 @@ std::vector<Alternative> alternatives_of(const DiagnosisProblem& problem, const 
     const ModelFit fit = set.effects == result.found.best.effects
                              ? result.found.best
                              : fit_model(set.effects, problem.inference(result.nominal, result.priors));
-    SearchResult alone;
-    alone.best = fit;
-    Comparisons compared = compare_all(problem, alone, holdouts);
+    Comparisons compared = compare_all(problem, fit, holdouts);
     if (compared.holdouts.empty()) {
       compared.holdouts = std::move(compared.others);
       compared.holdouts.push_back(std::move(compared.here));
@@ -305,7 +302,8 @@ FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& 
   FoundEffects result = find_effects(problem);
   SearchResult& found = result.found;
   const bool with_effects = !found.best.effects.empty();
-  Comparisons compared = compare_all(problem, found, holdouts);
+  Comparisons compared =
+      compare_all(problem, found.best, holdouts, with_effects ? &found.mean_without_effects : nullptr);
   const Comparison here = compared.here;
   write_map(problem, compared, answer);
   remark_on(result, problem.library, answer);

@@ -24,6 +24,16 @@ TEST_F(GapKinds, ConfoundedCausesAreBothNamedWithTheManoeuvreThatDecides) {
   EXPECT_NE(said("a.html").find("Ambiguous: there is a gap"), std::string::npos);
 }
 
+// It ended by a read of a vector that nobody had filled.
+TEST_F(GapKinds, ConfoundedCausesAreNamedOnAHoldOutToo) {
+  write("iron.toml", "[hard_iron]\nx_uT = -1.7\ny_uT = -0.9\n");
+  sail("--effects iron.toml");
+  ASSERT_EQ(run_navcal("simulate --mission ./one.toml --seed 8 --effects iron.toml -o b.cap"), 0) << said("err");
+  const auto json = gap("--holdout b.cap");
+  ASSERT_EQ(json["kind"], "ambiguous") << json["sentence"];
+  for (const auto& one : json["alternatives"]) EXPECT_GT(one["closed"].get<double>(), 0.9);
+}
+
 TEST_F(GapKinds, ARecordingThatCannotBeComparedCannotSay) {
   sail("--seconds 15");
   const auto json = gap();

@@ -18,17 +18,18 @@ namespace {
 
 using namespace test;
 
-constexpr double kStep_s = 0.1;
-constexpr Instruments kAll{.compass = true, .rate = true, .ground = true, .motor = true, .reference = true};
+constexpr double kDriveStep_s = 0.1;
+constexpr Instruments kEveryInstrument{
+    .compass = true, .rate = true, .ground = true, .motor = true, .reference = true};
 
 /// A vehicle with all instruments, ten readings a second, in a sea that sets to the north-east.
 class Drive {
  public:
-  explicit Drive(const SuiteOptions& options) : options_(options), suite_(options, kAll) {}
+  explicit Drive(const SuiteOptions& options) : options_(options), suite_(options, kEveryInstrument) {}
 
   /// Goes on for so long, turning at a rate that swings about `turn_rad_s`, with roll and pitch of `tilt_rad`.
   void go(double seconds, double turn_rad_s, double tilt_rad, double rpm = 600) {
-    for (const double end_s = time_s_ + seconds; time_s_ < end_s; time_s_ += kStep_s) {
+    for (const double end_s = time_s_ + seconds; time_s_ < end_s; time_s_ += kDriveStep_s) {
       const double roll_rad = tilt_rad * std::sin(0.9 * time_s_),
                    pitch_rad = tilt_rad * std::sin(0.7 * time_s_ + 1);
       const double rate_rad_s = turn_rad_s * (1 + 0.3 * std::sin(0.2 * time_s_));
@@ -37,9 +38,9 @@ class Drive {
       compass(roll_rad, pitch_rad);
       if (tick_ % 10 == 0) fix();
       if (has_reference && tick_ % 10 == 5) reference();
-      heading_rad_ += rate_rad_s * kStep_s;
+      heading_rad_ += rate_rad_s * kDriveStep_s;
       position_m_ +=
-          kStep_s * (speed_m_s() * Eigen::Vector2d(std::cos(heading_rad_), std::sin(heading_rad_)) + kSet);
+          kDriveStep_s * (speed_m_s() * Eigen::Vector2d(std::cos(heading_rad_), std::sin(heading_rad_)) + kSet);
       ++tick_;
       while (const auto adopted = suite_.take_adopted())
         lines.add("{:.1f} s: {} in force", time_s_, name_of(*adopted));
@@ -47,7 +48,7 @@ class Drive {
     }
   }
   /// The suite is another one that was given the saved state.
-  void restart() { suite_ = restored(saved(suite_), options_, kAll); }
+  void restart() { suite_ = restored(saved(suite_), options_, kEveryInstrument); }
   void tell(std::string_view after);
   Suite& suite() { return suite_; }
 
