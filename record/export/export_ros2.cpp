@@ -173,15 +173,17 @@ Exported export_bag(const std::filesystem::path& log_file, const std::filesystem
     constexpr std::string_view kTime = "\"time\":";
     const std::string_view from_time = json.substr(std::min(json.find(kTime), json.size()));
     const std::string_view seconds = from_time.substr(std::min(kTime.size(), from_time.size()));
-    const auto time_ns = nanoseconds(seconds.substr(0, seconds.find_first_of(",}")));
+    const auto arrival_ns =
+        utc.mapping().to_utc(static_cast<std::int64_t>(message->log_time_ns) - log.log_offset_ns());
+    // What no instrument measured (/health) has its time in words: it was sent when it was true.
+    const auto time_ns = seconds.starts_with('"') ? std::optional(arrival_ns)
+                                                  : nanoseconds(seconds.substr(0, seconds.find_first_of(",}")));
     const auto made = samples.made_of(channel.topic, json, time_ns.value_or(0));
     if (!utc.is_known() || !time_ns) {
       without_utc += made.size();
       continue;
     }
-    const auto arrival_ns = static_cast<std::int64_t>(message->log_time_ns) - log.log_offset_ns();
-    for (const RosMessage& each : made)
-      bag.add(each, static_cast<std::uint64_t>(utc.mapping().to_utc(arrival_ns)));
+    for (const RosMessage& each : made) bag.add(each, static_cast<std::uint64_t>(arrival_ns));
   }
   Exported exported{{path}, {}};
   if (bag.messages() == 0)
