@@ -62,6 +62,13 @@ class Drive {
 
   [[nodiscard]] double speed_m_s() const { return rpm_ / 60 * options_.advance_m; }
   double noise(double std) { return std * normal_(random_); }
+  /// Compilers evaluate arguments in their own orders.
+  template <int size>
+  Eigen::Matrix<double, size, 1> noises(double std) {
+    Eigen::Matrix<double, size, 1> all;
+    for (double& each : all) each = noise(std);
+    return all;
+  }
 
   void motor(double rpm) {
     rpm_ = rpm;
@@ -77,7 +84,7 @@ class Drive {
         rate_rad_s * std::cos(roll_rad) * std::cos(pitch_rad) - pitch_rate * std::sin(roll_rad));
     RateReading reading;
     reading.time_s = time_s_;
-    reading.rate_rad_s = rate + Eigen::Vector3d(noise(0.002), noise(0.002), noise(0.002));
+    reading.rate_rad_s = rate + noises<3>(0.002);
     reading.rate_rad_s.z() = (reading.rate_rad_s.z() - 0.01) / 1.04;
     reading.yaw_rate_b_rad_s = (rate.z() - kGyroB.bias_rad_s) / kGyroB.scale + noise(0.002);
     reading.specific_force_m_s2 =
@@ -97,17 +104,17 @@ class Drive {
     reading.pitch_rad = pitch_rad + noise(0.002);
     reading.field_body_uT =
         soft * (base::rotation_of({roll_rad, pitch_rad, magnetic_rad}).transpose() * earth_uT) + hard_uT +
-        magnet_uT + current_A_ * per_A_uT + Eigen::Vector3d(noise(0.1), noise(0.1), noise(0.1));
+        magnet_uT + current_A_ * per_A_uT + noises<3>(0.1);
     const Eigen::Vector3d level = base::rotation_of({roll_rad, pitch_rad, 0}) * *reading.field_body_uT;
     reading.heading_rad = base::wrapped(std::atan2(-level.y(), level.x()));
     suite_.put(reading);
     newest_ = reading;
   }
   void fix() {
-    const Eigen::Vector2d ground = speed_m_s() * Eigen::Vector2d(std::cos(heading_rad_), std::sin(heading_rad_)) +
-                                   kSet + Eigen::Vector2d(noise(0.05), noise(0.05));
-    suite_.put(GroundReading{time_s_, position_m_ + Eigen::Vector2d(noise(1.5), noise(1.5)), ground.norm(),
-                             std::atan2(ground.y(), ground.x())});
+    const Eigen::Vector2d ground =
+        speed_m_s() * Eigen::Vector2d(std::cos(heading_rad_), std::sin(heading_rad_)) + kSet + noises<2>(0.05);
+    suite_.put(
+        GroundReading{time_s_, position_m_ + noises<2>(1.5), ground.norm(), std::atan2(ground.y(), ground.x())});
   }
   void reference() {
     suite_.put(ReferenceReading{time_s_, 0.005, base::wrapped(heading_rad_ + noise(0.01)), 0.01});
