@@ -277,7 +277,12 @@ AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going
   log.file = request.file;
   const base::TemporaryFolder folder;
   const std::string file = readable(request, folder, log, keep_going);
-  read_samples(log, file, request.window, keep_going);
+  try {
+    read_samples(log, file, request.window, keep_going);
+  } catch (const record::NothingInWindow& error) {
+    // What was imported has a name that nobody knows.
+    throw record::NothingInWindow(base::Exit::usage, request.file + std::string(error.what()).substr(file.size()));
+  }
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;
   if (request.also && !log.is_partial) request.also(file);
   if (log.is_partial || log.compass.empty()) return log;

@@ -43,8 +43,10 @@ LogReader::LogReader(std::unique_ptr<ByteSource> source, std::string name)
   if (!header || header->opcode != Opcode::header) throw BadRecording(name_ + ": byte 8: no whole MCAP header");
   const std::string_view profile = McapFields(header->content).string();
   if (profile != kProfile) {
-    throw BadRecording(fmt::format("{}: byte 8: an MCAP file, but not a log of navcal (its profile is \"{}\")",
-                                   name_, profile.substr(0, 64)));
+    throw BadRecording(
+        fmt::format("{}: byte 8: an MCAP file, but not a log of navcal (its profile is \"{}\"); "
+                    "\"navcal log import\" reads bags of ROS 2",
+                    name_, profile.substr(0, 64)));
   }
   window_.advance(header->length);
   findings_.data_end = window_.offset();

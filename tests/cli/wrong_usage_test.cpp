@@ -81,6 +81,11 @@ TEST_F(WrongUsage, AWindowWithoutAReadingIsNoEmptyAnswer) {
   expect_refused("calibrate a.cap --from 2026-01-01T00:00:09Z --to 2026-01-01T00:00:09Z", 2, "is not before");
   expect_refused("calibrate a.cap --from 5 --to 2025-01-01T00:00:00Z", 2, "leave nothing of the recording");
   EXPECT_EQ(run("calibrate a.cap --from 2026-01-01T00:00:05Z").status, 0);
+  // What is imported for the audit is told by the name that it was given.
+  std::filesystem::copy(NAVCAL_SOURCE_DIR "/share/samples/three-faults.BIN", folder_ / "dive.BIN");
+  const auto outside = run("audit dive.BIN --from 9000");
+  EXPECT_EQ(outside.status, 2);
+  EXPECT_EQ(outside.errors.substr(0, 40), "navcal: dive.BIN: --from and --to leave ") << outside.errors;
   // The first file of a series may lie before the window.
   ASSERT_EQ(run("simulate --mission survey --seconds 20 --date 2026-01-02 -o b.cap").status, 0);
   EXPECT_EQ(run("calibrate a.cap b.cap --from 2026-01-01T12:00:00Z").status, 0);
