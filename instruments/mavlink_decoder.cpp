@@ -22,6 +22,7 @@ constexpr std::int64_t kHighResolution_ns = 1'000'000'000;    // without HIGHRES
 constexpr double kMilliG_m_s2 = 9.80665e-3;
 constexpr std::uint16_t kNoNumber = 65535;
 constexpr int kHeartbeatsOfAnother = 10;
+constexpr std::uint32_t kVisionDelta = 11011;
 
 bool all_finite(const Vector3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
@@ -42,7 +43,8 @@ std::span<const MavlinkReading> MavlinkDecoder::read(const mavlink::Message& mes
   component_ = message.component;
   const Payload payload(message.payload);
   if (message.id == 0) read_heartbeat(message, payload);
-  if (message.system != vehicle_ || (component_ != mavlink::kAutopilot && message.id != 132)) return {};
+  if (message.id == kVisionDelta && vehicle_) read_delta(payload);
+  if (message.system != vehicle_ || (component_ != mavlink::kAutopilot && message.id != 132)) return readings_;
   switch (message.id) {
     case 1: {
       PowerSample power;
@@ -239,6 +241,18 @@ void MavlinkDecoder::read_outputs(const Payload& payload) {
     const int number = payload.at<std::uint8_t>(20) * kOutputs + i + 1;
     put(ScalarSample{Text<24>("output" + std::to_string(number)), Text<16>("us"), double(pulse_us), {}}, number);
   }
+}
+
+// VISION_POSITION_DELTA, by which drivers of Doppler logs and cameras tell an autopilot how far the vehicle has
+// moved: from whoever sends it, as the autopilot takes it. Its time is of a clock that it does not name: the
+// arrival counts.
+void MavlinkDecoder::read_delta(const Payload& payload) {
+  const double duration_s = static_cast<double>(payload.at<std::uint64_t>(8)) * 1e-6;
+  const Vector3 moved_m = payload.vector<float>(28, 1);
+  if (!(duration_s > 0) || !all_finite(moved_m) || !(payload.at<float>(40) > 0)) return;
+  DvlSample motion;
+  motion.bottom_velocity_m_s = Vector3{moved_m[0] / duration_s, moved_m[1] / duration_s, moved_m[2] / duration_s};
+  put(motion);
 }
 
 // DISTANCE_SENSOR looking down, of the first component that sends it; without one RANGEFINDER and WATER_DEPTH.

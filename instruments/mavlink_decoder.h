@@ -25,7 +25,7 @@ struct MavlinkReading {
 ///
 /// The vehicle is the first system whose autopilot (component 1) sends a heartbeat; one that keeps silent for ten
 /// heartbeats of another autopilot is left for it. Other systems and components are not read, but for echo
-/// sounders of the vehicle. A field is taken when it has changed, since an autopilot repeats it.
+/// sounders of the vehicle, and for motions over the bottom from whoever sends them. A field is taken when it has changed, since an autopilot repeats it.
 ///
 /// The autopilot's own calibration of its compass is undone where its parameters are known. They are waited for,
 /// for five seconds of fields: without them the fields stay as they were sent, until the end.
@@ -69,6 +69,7 @@ class MavlinkDecoder {
   void read_gps(const Payload& payload);
   void read_battery(const Payload& payload);
   void read_outputs(const Payload& payload);
+  void read_delta(const Payload& payload);
   void read_echo(const protocols::mavlink::Message& message, const Payload& payload);
   void put(const Value& value, int instance = 0);
   /// Time of the message since the boot, by a counter that begins anew after `span_ns`; 0: never. One that is not

@@ -43,7 +43,8 @@ class MavlinkVehicle final : public Instrument {
       hand_over_reading(reading, message.component, receiver);
       verdict = Verdict::used;
     }
-    return message.system != decoder_.vehicle().value_or(message.system) ? Verdict::foreign : verdict;
+    const bool is_foreign = message.system != decoder_.vehicle().value_or(message.system);
+    return is_foreign && verdict != Verdict::used ? Verdict::foreign : verdict;
   }
   [[nodiscard]] bool has_corrected_fields() const override { return decoder_.has_corrected_fields(unit_); }
 

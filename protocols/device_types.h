@@ -41,7 +41,7 @@ inline constexpr Delivery kEverything{.heading = true,
 
 inline constexpr Delivery kOfAutopilot = [] {
   Delivery delivery = kEverything;
-  delivery.shaft = delivery.bottom_velocity = delivery.water_velocity = false;
+  delivery.shaft = delivery.water_velocity = false;
   return delivery;
 }();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "config/load.h"
 #include "instruments/autopilot_compass.h"
 #include "protocols/mavlink.h"
@@ -164,6 +166,38 @@ TEST_F(Vehicle, ARestartBringsASmallerTime) {
   EXPECT_EQ(newest_ns(), 5'000'000'000);
   servo(5'010'000);
   EXPECT_EQ(newest_ns(), 5'010'000'000);
+}
+
+TEST_F(Vehicle, ADopplerLogsMotionIsReadFromWhoeverSendsIt) {
+  const auto delta = [](std::uint64_t duration_us, float forward_m, float confidence) {
+    return Fields{}
+        .put(std::uint64_t{5})
+        .put(duration_us)
+        .put(0.1F)
+        .put(0.2F)
+        .put(0.3F)
+        .put(forward_m)
+        .put(-0.01F)
+        .put(0.002F)
+        .put(confidence);
+  };
+  EXPECT_EQ(send(11011, delta(200'000, 0.1F, 80), 255, 0), Verdict::ignored) << "no vehicle yet";
+  heartbeat();
+  EXPECT_EQ(send(11011, delta(200'000, 0.1F, 80), 255, 0), Verdict::used) << "as BlueOS' driver sends it";
+  EXPECT_EQ(send(11011, delta(100'000, 0.1F, 80), 1, 1), Verdict::used);
+  const auto all = collector.all<DvlSample>();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].frame, VelocityFrame::body);
+  ASSERT_TRUE(all[0].bottom_velocity_m_s && all[1].bottom_velocity_m_s);
+  EXPECT_NEAR((*all[0].bottom_velocity_m_s)[0], 0.5, 1e-6);
+  EXPECT_NEAR((*all[0].bottom_velocity_m_s)[1], -0.05, 1e-6);
+  EXPECT_NEAR((*all[0].bottom_velocity_m_s)[2], 0.01, 1e-6);
+  EXPECT_NEAR((*all[1].bottom_velocity_m_s)[0], 1, 1e-6);
+  EXPECT_FALSE(collector.measurements.back().device_time_ns) << "of a clock that it does not name";
+  EXPECT_EQ(send(11011, delta(0, 0.1F, 80)), Verdict::ignored);
+  EXPECT_EQ(send(11011, delta(200'000, 0.1F, 0)), Verdict::ignored) << "of no confidence";
+  EXPECT_EQ(send(11011, delta(200'000, std::numeric_limits<float>::quiet_NaN(), 80)), Verdict::ignored);
+  EXPECT_EQ(send(11011, delta(0, 0.1F, 80), 255, 0), Verdict::foreign) << "counted as of another system";
 }
 
 TEST_F(Vehicle, AnotherComponentHasAClockOfItsOwn) {

@@ -5,6 +5,9 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <memory>
 
 #include "gap/verdict/request.h"
@@ -47,6 +50,20 @@ class Digest {
     for (const std::string& each : found.unexplained) lines_.add("unexplained {}", each);
     for (const std::string& each : found.next) lines_.add("next {}", each);
     for (const std::string& each : found.remarks) lines_.add("remark {}", each);
+    if (found.commands)
+      lines_.add("commands {:.3f} s {:.3f} {} {:.3f}", found.commands->delay_s.value_or(-9),
+                 found.commands->correlation.value_or(-9), found.commands->by_reports, found.commands->saturated);
+    for (const Interruption& each : found.instruments.interrupted)
+      lines_.add("interrupted {} {:.1f} to {:.1f} s", each.what, each.from_s, each.until_s);
+    for (const Course& course : found.courses)
+      lines_.add("course {} {} {:.4g} {:.4g}", course.channel, course.time_s.size(), sum_of(course.before),
+                 sum_of(course.after));
+    if (found.scatter)
+      lines_.add("scatter {} {} {:.4g} {:.4g}", found.scatter->channel, found.scatter->driver,
+                 sum_of(found.scatter->before), sum_of(found.scatter->after));
+    if (found.tracks)
+      lines_.add("tracks {:.4g} {:.4g} {:.4g}", sum_of(found.tracks->fixes.north_m),
+                 sum_of(found.tracks->nominal.east_m), sum_of(found.tracks->improved.north_m));
     for (const std::string& each : found.instruments.missing) lines_.add("missing {}", each);
     for (const std::string& each : found.instruments.not_judged) lines_.add("not judged {}", each);
     for (const ChangePoint& change : found.changes)
@@ -65,6 +82,12 @@ class Digest {
   [[nodiscard]] const navcal::test::GoldenLines& lines() const { return lines_; }
 
  private:
+  /// Of absolute values: what is not there counts nothing.
+  static double sum_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += std::isfinite(value) ? std::abs(value) : 0;
+    return sum;
+  }
   void add(std::string_view what, const EffectFinding& effect) {
     lines_.add("{} {} p {:.3f} shown by {}", what, effect.words(), effect.probability, effect.manoeuvre);
     for (const EffectParameterEstimate& each : effect.parameters)
@@ -142,6 +165,37 @@ TEST_F(GoldenDiagnosis, ANominalMissionWithoutItsField) {
   request.missions = {recorded("nominal", "", 100, 3)};
   request.without = {Quantity::field};
   expect_golden(of(request), "nominal");
+}
+
+TEST_F(GoldenDiagnosis, RecordingsThatDiffer) {
+  Request request;
+  request.missions = {slosh("a", 11), recorded("nominal", "", 100, 3)};
+  expect_golden(of(request), "recordings_that_differ");
+}
+
+// Between a controller and the card the orders go through slew rates: the backlash of servos has nulls of its own.
+TEST_F(GoldenDiagnosis, ShapedOrders) {
+  Request request;
+  request.missions = {*folder_ / "shaped.cap"};
+  test::write_shaped_mission(request.missions.front(), "identification", "[fin_backlash]\nwidth_deg = 2\n", 100,
+                             5);
+  expect_golden(of(request), "shaped_orders");
+}
+
+TEST_F(GoldenDiagnosis, AReceiverThatIsSilentForAWhile) {
+  const auto whole = recorded("current", "[water_current]\nnorth_m_s = 0.1\neast_m_s = -0.1\n", 120, 6);
+  constexpr double kBegin_s = 1'767'225'600;  // of simulated captures
+  Request request;
+  request.missions = {*folder_ / "silent.cap"};
+  std::ifstream in(whole);
+  std::ofstream out(request.missions.front());
+  for (std::string line; std::getline(in, line);) {
+    const bool is_gps = line.find(" gps ") != std::string::npos;
+    const double time_s = is_gps ? std::atof(line.c_str()) - kBegin_s : 0;
+    if (!is_gps || time_s < 40 || time_s > 85) out << line << '\n';
+  }
+  out.close();
+  expect_golden(of(request), "silent_receiver");
 }
 
 TEST_F(GoldenDiagnosis, TooBriefToSay) {
