@@ -28,11 +28,11 @@ class Drive {
   explicit Drive(const SuiteOptions& options) : options_(options), suite_(options, kEveryInstrument) {}
 
   /// Goes on for so long, turning at a rate that swings about `turn_rad_s`, with roll and pitch of `tilt_rad`.
-  void go(double seconds, double turn_rad_s, double tilt_rad, double rpm = 600) {
+  void go(double seconds, double turn_rad_s, double tilt_rad, double rpm = 600, double swing = 0.3) {
     for (const double end_s = time_s_ + seconds; time_s_ < end_s; time_s_ += kDriveStep_s) {
       const double roll_rad = tilt_rad * std::sin(0.9 * time_s_),
                    pitch_rad = tilt_rad * std::sin(0.7 * time_s_ + 1);
-      const double rate_rad_s = turn_rad_s * (1 + 0.3 * std::sin(0.2 * time_s_));
+      const double rate_rad_s = turn_rad_s * (1 + swing * std::sin(0.2 * time_s_));
       motor(rpm + 150 * std::sin(0.31 * time_s_));
       rates(roll_rad, pitch_rad, rate_rad_s, tilt_rad);
       compass(roll_rad, pitch_rad);
@@ -220,6 +220,37 @@ TEST(GoldenReport, OfTheOperatorsWord) {
   drive.go(100, 0.2, 0.2);
   drive.tell("begun anew, at another place");
   drive.lines.expect_same_as("calib/operator");
+}
+
+TEST(GoldenReport, OfASwingAndOfWhatIsHeldBack) {
+  Drive drive(drive_options());
+  drive.lines.add("start: {}", drive.suite().start(Calibrator::swing));
+  drive.go(3, -0.08, 0.01, 300, 0);  // to magnetic north
+  for (int eighth = 0; eighth < 9; ++eighth) {
+    drive.go(14.95, 0, 0.01, 300);
+    drive.go(4.95, std::numbers::pi / 20, 0.01, 300, 0);
+  }
+  drive.tell("eight headings");
+  drive.lines.add("accept: {}", drive.suite().accept(Calibrator::swing));
+  drive.go(150, 0.15, 0.2);
+  drive.tell("circles");
+  for (const Calibrator calibrator : {Calibrator::magnetometer, Calibrator::gyro, Calibrator::swing})
+    drive.lines.add("roll back {}: {}", name_of(calibrator), drive.suite().roll_back(calibrator));
+  drive.restart();
+  drive.go(120, -0.15, 0.2);
+  drive.tell("held back after a restart");
+  drive.lines.add("start: {}", drive.suite().start(Calibrator::magnetometer));
+  drive.suite().set_local_field({0.12, KnownField{47.9, 1.16}});
+  drive.go(150, 0.15, 0.25);
+  drive.tell("no longer held, where the declination is another");
+  drive.magnet_uT = {0, 12, -6};
+  drive.go(20, 0.1, 0.2);
+  drive.restart();
+  drive.go(100, -0.15, 0.25);
+  drive.magnet_uT.setZero();
+  drive.go(60, 0.15, 0.25);
+  drive.tell("a magnet that came and went");
+  drive.lines.expect_same_as("calib/swing");
 }
 
 }  // namespace
