@@ -25,7 +25,8 @@ struct MavlinkReading {
 ///
 /// The vehicle is the first system whose autopilot (component 1) sends a heartbeat; one that keeps silent for ten
 /// heartbeats of another autopilot is left for it. Other systems and components are not read, but for echo
-/// sounders of the vehicle, and for motions over the bottom from whoever sends them. A field is taken when it has changed, since an autopilot repeats it.
+/// sounders of the vehicle, and for motions over the bottom from whoever sends them. A field is taken when it has
+/// changed, since an autopilot repeats it.
 ///
 /// The autopilot's own calibration of its compass is undone where its parameters are known. They are waited for,
 /// for five seconds of fields: without them the fields stay as they were sent, until the end.

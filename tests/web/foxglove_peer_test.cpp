@@ -106,6 +106,16 @@ TEST_F(FoxgloveViewer, IsToldOfTopicsOfRosWithTheFirstMessageThatHasOne) {
   EXPECT_FALSE(channels(*viewer()).contains("/navcal/imu_1/data")) << "its source has gone";
 }
 
+TEST_F(FoxgloveViewer, ATopicOfRosMayHaveSeveralSources) {
+  hub.set_topics(topics({"/imu", "/compass"}));
+  publish("/imu", kStart_ns, R"({"device":"rov","temperature_C":12.5})");
+  publish("/compass", kStart_ns, R"({"device":"rov","temperature_C":13.5})");
+  const auto one = viewer();
+  one->subscribes(1, channels(*one)["/navcal/rov/temperature"]);
+  EXPECT_EQ(hub.demand().topics, (std::set<std::string, std::less<>>{"/compass", "/imu"}));
+  EXPECT_EQ(one->link.messages().size(), 2U);
+}
+
 TEST_F(FoxgloveViewer, EachViewerIsToldOfANewTopicOfRos) {
   const auto first = viewer(), second = viewer();
   channels(*first), channels(*second);

@@ -230,8 +230,8 @@ std::vector<const Channel*> Channels::available(const std::vector<Topic>& topics
   return found;
 }
 
-const Channel* Channels::known(Channel channel, const std::string& topic, const std::string& schema_name,
-                               const std::string& schema) {
+Channel* Channels::known(Channel channel, const std::string& topic, const std::string& schema_name,
+                         const std::string& schema) {
   const std::tuple key{topic, schema_name, schema};
   const auto found = channels_.find(key);
   if (found != channels_.end()) return &found->second;
@@ -244,9 +244,13 @@ const Channel* Channels::known(Channel channel, const std::string& topic, const 
 std::size_t Channels::learn_ros(const Record& record, std::int64_t time_ns, std::uint64_t serial) {
   for (const record::RosMessage& made : derived_of(record, time_ns, serial).ros) {
     const std::size_t before = channels_.size();
-    const Channel* const channel = known({.sources = {std::string(record.topic)}, .ros_topic = made.topic},
-                                         made.topic, made.type->name, made.type->definition);
+    const std::string source(record.topic);
+    Channel* const channel =
+        known({.sources = {source}, .ros_topic = made.topic}, made.topic, made.type->name, made.type->definition);
     if (channels_.size() > before) ros_.push_back(channel);
+    // The temperature of a port may come with more than one of its samples.
+    if (channel != nullptr && std::ranges::find(channel->sources, source) == channel->sources.end())
+      channel->sources.push_back(source);
   }
   return ros_.size();
 }

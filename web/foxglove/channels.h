@@ -79,8 +79,8 @@ class Channels {
                                                         std::int64_t time_ns, std::uint64_t serial);
 
  private:
-  const Channel* known(Channel channel, const std::string& topic, const std::string& schema_name,
-                       const std::string& schema);
+  Channel* known(Channel channel, const std::string& topic, const std::string& schema_name,
+                 const std::string& schema);
   const Derived& derived_of(const Record& record, std::int64_t time_ns, std::uint64_t serial);
 
   std::map<std::tuple<std::string, std::string, std::string>, Channel> channels_;
