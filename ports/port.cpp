@@ -312,8 +312,8 @@ void Port::State::write_when_ready() {
                         });
 }
 
-Port::Port(asio::any_io_executor executor, config::PortSettings settings, PortListener& listener)
-    : state_(std::make_shared<State>(std::move(executor), std::move(settings), listener)) {}
+Port::Port(const asio::any_io_executor& executor, config::PortSettings settings, PortListener& listener)
+    : state_(std::make_shared<State>(executor, std::move(settings), listener)) {}
 
 Port::~Port() { stop(); }
 

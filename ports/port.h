@@ -44,7 +44,7 @@ class PortListener {
 /// for nothing but bytes.
 class Port {
  public:
-  Port(boost::asio::any_io_executor executor, config::PortSettings settings, PortListener& listener);
+  Port(const boost::asio::any_io_executor& executor, config::PortSettings settings, PortListener& listener);
   ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
