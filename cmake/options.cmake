@@ -158,7 +158,7 @@ function(navcal_text target file text_namespace text_function)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${text_file})
   file(READ ${text_file} text_content)
   file(RELATIVE_PATH text_file ${CMAKE_SOURCE_DIR} ${text_file})
-  configure_file(${CMAKE_SOURCE_DIR}/cmake/text.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/${text_function}.cpp @ONLY)
+  configure_file(${CMAKE_SOURCE_DIR}/cmake/text.in ${CMAKE_CURRENT_BINARY_DIR}/${text_function}.cpp @ONLY)
   target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${text_function}.cpp)
 endfunction()
 
