@@ -36,15 +36,16 @@ class MavlinkVehicle final : public Instrument {
       case Signature::replayed: return Verdict::replayed;
     }
     const auto message = protocols::mavlink::find_message(frame.bytes).message;
-    auto verdict = Verdict::ignored;
-    for (MavlinkReading reading : decoder_.read(message)) {
+    const auto readings = decoder_.read(message);
+    const std::uint8_t vehicle = decoder_.vehicle().value_or(message.system);
+    auto verdict = message.system == vehicle ? Verdict::ignored : Verdict::foreign;
+    for (MavlinkReading reading : readings) {
       if (!is_wanted(reading)) continue;
       if (auto* const compass = std::get_if<CompassSample>(&reading.value)) complete(*compass, reading);
       hand_over_reading(reading, message.component, receiver);
       verdict = Verdict::used;
     }
-    const bool is_foreign = message.system != decoder_.vehicle().value_or(message.system);
-    return is_foreign && verdict != Verdict::used ? Verdict::foreign : verdict;
+    return verdict;
   }
   [[nodiscard]] bool has_corrected_fields() const override { return decoder_.has_corrected_fields(unit_); }
 
@@ -80,14 +81,6 @@ class MavlinkVehicle final : public Instrument {
   std::optional<std::int64_t> tilt_ns_;
   std::optional<protocols::mavlink::Signer> signer_;
 };
-
-}  // namespace
-
-std::unique_ptr<Instrument> make_mavlink(const config::PortSettings& settings) {
-  return std::make_unique<MavlinkVehicle>(settings);
-}
-
-namespace {
 
 namespace mavlink = protocols::mavlink;
 
@@ -212,10 +205,9 @@ class StartUpMavlink final : public StartUp {
   /// In steps: each change of the words is an event.
   [[nodiscard]] std::string delay_words() const {
     if (!round_trip_ns_) return "";
-    for (const int bound_ms : {1, 2, 5, 10, 20, 50, 100, 200, 500}) {
+    for (const int bound_ms : {1, 2, 5, 10, 20, 50, 100, 200, 500})
       if (*round_trip_ns_ <= bound_ms * base::kMillisecond_ns)
         return fmt::format("; times late by at most {} ms on the link", bound_ms);
-    }
     return "; times may be late by half a second or more on the link";
   }
   std::vector<std::uint8_t> heartbeat() { return mavlink::encode_heartbeat(sender(), kOnboardController); }
@@ -254,6 +246,10 @@ class StartUpMavlink final : public StartUp {
 };
 
 }  // namespace
+
+std::unique_ptr<Instrument> make_mavlink(const config::PortSettings& settings) {
+  return std::make_unique<MavlinkVehicle>(settings);
+}
 
 std::unique_ptr<StartUp> start_mavlink(const config::PortSettings& settings) {
   return std::make_unique<StartUpMavlink>(settings);

@@ -28,15 +28,17 @@ std::size_t stride_for(std::size_t count) { return count / kMostDots + 1; }
 std::vector<Point> over_heading(const std::vector<analysis::HeadingResidual>& residuals,
                                 double analysis::HeadingResidual::*which) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < residuals.size(); i += stride_for(residuals.size())) {
+  for (std::size_t i = 0; i < residuals.size(); i += stride_for(residuals.size()))
     points.push_back(
         {residuals[i].heading_rad * base::kDegreesPerRadian, residuals[i].*which * base::kDegreesPerRadian});
-  }
   return points;
 }
 
-void append_heights(std::vector<double>& heights, const std::vector<Point>& points) {
-  for (const Point& point : points) heights.push_back(point.y);
+Range range_of(const std::vector<Point>& some, const std::vector<Point>& others) {
+  std::vector<double> heights;
+  for (const auto* const points : {&some, &others})
+    for (const Point& point : *points) heights.push_back(point.y);
+  return report::range_of(heights);
 }
 
 /// Standard error of the deviation at a heading, from the whole covariance of B..E.
@@ -47,7 +49,25 @@ double deviation_std_rad(const calib::CalibratorReport& compass, double heading_
   return std::sqrt(f.dot(compass.covariance * f));
 }
 
+/// Heading that the compass shows less the magnetic one.
+double deviation_rad(const calib::Report& report, double heading_rad) {
+  return std::remainder(heading_rad - (*report.estimates.compass)(heading_rad), 2 * std::numbers::pi);
+}
+
 }  // namespace
+
+std::vector<std::vector<std::string>> deviation_card(const calib::Report& report) {
+  std::vector<std::vector<std::string>> rows;
+  const auto* const compass = report.find(calib::Calibrator::compass);
+  if (compass == nullptr || !compass->judgement.accepted || !report.estimates.compass) return rows;
+  for (int degrees = 0; degrees < 360; degrees += 30) {
+    const double shown_rad = degrees / base::kDegreesPerRadian, by_rad = deviation_rad(report, shown_rad);
+    rows.push_back({fmt::format("{:03}", degrees), fmt::format("{:+.1f}", by_rad * base::kDegreesPerRadian),
+                    fmt::format("{:.1f}", 2 * deviation_std_rad(*compass, shown_rad) * base::kDegreesPerRadian),
+                    fmt::format("{:05.1f}", base::as_heading(shown_rad - by_rad) * base::kDegreesPerRadian)});
+  }
+  return rows;
+}
 
 std::optional<Figure> deviation_figure(const calib::Report& report,
                                        const std::vector<analysis::HeadingResidual>& residuals) {
@@ -56,19 +76,15 @@ std::optional<Figure> deviation_figure(const calib::Report& report,
   std::vector<Point> curve, lower, upper;
   for (int degrees = 0; degrees <= 360; degrees += 4) {
     const double heading_rad = degrees / base::kDegreesPerRadian;
-    const double deviation_rad =
-        std::remainder(heading_rad - (*report.estimates.compass)(heading_rad), 2 * std::numbers::pi);
+    const double by_rad = deviation_rad(report, heading_rad);
     const double band_rad = 2 * deviation_std_rad(*compass, heading_rad);
     if (!(band_rad < kWorstCurve_rad)) return std::nullopt;
-    curve.push_back({double(degrees), deviation_rad * base::kDegreesPerRadian});
-    lower.push_back({double(degrees), (deviation_rad - band_rad) * base::kDegreesPerRadian});
-    upper.push_back({double(degrees), (deviation_rad + band_rad) * base::kDegreesPerRadian});
+    curve.push_back({double(degrees), by_rad * base::kDegreesPerRadian});
+    lower.push_back({double(degrees), (by_rad - band_rad) * base::kDegreesPerRadian});
+    upper.push_back({double(degrees), (by_rad + band_rad) * base::kDegreesPerRadian});
   }
   const auto measured = over_heading(residuals, &analysis::HeadingResidual::deviation_rad);
-  std::vector<double> heights;
-  append_heights(heights, curve);
-  append_heights(heights, measured);
-  SvgPlot plot("Deviation of the compass", kHeadingAxis, {"deviation, degrees", range_of(heights)});
+  SvgPlot plot("Deviation of the compass", kHeadingAxis, {"deviation, degrees", range_of(curve, measured)});
   plot.level(0);
   plot.points(Ink::before, "measured against the gyro", measured);
   plot.band(Ink::after, "two standard errors", lower, upper);
@@ -83,10 +99,7 @@ std::optional<Figure> residual_figure(const calib::Report& report,
   if (residuals.empty()) return std::nullopt;
   const auto before = over_heading(residuals, &analysis::HeadingResidual::before_rad);
   const auto after = over_heading(residuals, &analysis::HeadingResidual::after_rad);
-  std::vector<double> heights;
-  append_heights(heights, before);
-  append_heights(heights, after);
-  SvgPlot plot("Heading against the gyro", kHeadingAxis, {"residual, degrees", range_of(heights)});
+  SvgPlot plot("Heading against the gyro", kHeadingAxis, {"residual, degrees", range_of(before, after)});
   plot.level(0);
   plot.points(Ink::before, "as measured", before);
   plot.points(Ink::after, "calibrated", after);

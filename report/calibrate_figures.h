@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/calibrate_history.h"
@@ -13,6 +14,9 @@ namespace navcal::report {
 /// Deviation curve with its band and the measured deviations; nullopt without an estimate.
 [[nodiscard]] std::optional<Figure> deviation_figure(const calib::Report& report,
                                                      const std::vector<analysis::HeadingResidual>& residuals);
+/// The same to be read beside the compass, every 30 degrees: shown, deviation, two standard errors, magnetic.
+/// Empty without an accepted estimate.
+[[nodiscard]] std::vector<std::vector<std::string>> deviation_card(const calib::Report& report);
 /// Heading less the gyro's, before and after calibration, over the heading.
 [[nodiscard]] std::optional<Figure> residual_figure(const calib::Report& report,
                                                     const std::vector<analysis::HeadingResidual>& residuals);

@@ -31,8 +31,7 @@ void on_bus_error(int /*signal*/, siginfo_t* info, void* /*context*/) {
   const auto page = at - at % static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const bool is_ours = at >= thread_mapping.begin && at < thread_mapping.end;
   thread_mapping.is_whole = thread_mapping.is_whole && !is_ours;
-  void* const begin =
-      reinterpret_cast<void*>(page);  // NOLINT(performance-no-int-to-ptr): a page has no other name
+  void* const begin = reinterpret_cast<void*>(page);  // NOLINT(performance-no-int-to-ptr)
   if (!is_ours || ::mmap(begin, thread_mapping.end - page, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1,
                          0) == MAP_FAILED)
     ::signal(SIGBUS, SIG_DFL);

@@ -34,8 +34,9 @@ TEST_F(CalibrateReport, IsWholeAndHasEveryPicture) {
                               "Gyros: bias", "Compass deviation", "Magnetometer: offset"}) {
     EXPECT_EQ(count(page, "<title>" + std::string(picture) + "</title>"), 1) << picture;
   }
-  for (const char* said : {"two standard errors", "fitted ellipse", "Readings left out", "Estimates", "a.cap",
-                           "navcal " NAVCAL_VERSION, "prefers-color-scheme: dark", "@media print"}) {
+  for (const char* said :
+       {"two standard errors", "fitted ellipse", "Compass shows, deg", "Readings left out", "Estimates", "a.cap",
+        "navcal " NAVCAL_VERSION, "prefers-color-scheme: dark", "@media print"}) {
     EXPECT_NE(page.find(said), std::string::npos) << said;
   }
   EXPECT_EQ(page.find("nan"), std::string::npos);

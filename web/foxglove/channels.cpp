@@ -243,14 +243,13 @@ Channel* Channels::known(Channel channel, const std::string& topic, const std::s
 
 std::size_t Channels::learn_ros(const Record& record, std::int64_t time_ns, std::uint64_t serial) {
   for (const record::RosMessage& made : derived_of(record, time_ns, serial).ros) {
-    const std::size_t before = channels_.size();
     const std::string source(record.topic);
     Channel* const channel =
         known({.sources = {source}, .ros_topic = made.topic}, made.topic, made.type->name, made.type->definition);
-    if (channels_.size() > before) ros_.push_back(channel);
+    if (channel == nullptr) continue;
+    if (std::ranges::find(ros_, channel) == ros_.end()) ros_.push_back(channel);
     // The temperature of a port may come with more than one of its samples.
-    if (channel != nullptr && std::ranges::find(channel->sources, source) == channel->sources.end())
-      channel->sources.push_back(source);
+    if (std::ranges::find(channel->sources, source) == channel->sources.end()) channel->sources.push_back(source);
   }
   return ros_.size();
 }
