@@ -67,7 +67,7 @@ void append_heading(HtmlPage& page, const calib::Report& report, const analysis:
   if (!any_heading) page.paragraph("No headings in the recording.");
   if (!figures.empty()) page.figures(figures);
   if (const auto card = deviation_card(report); !card.empty())
-    page.table({"Compass shows, deg", "Deviation", "+-", "Magnetic heading, but for A"}, card);
+    page.table({"Compass shows, deg", "Deviation", "Two standard errors", "Magnetic, but for A"}, card);
 }
 
 void append_estimates(HtmlPage& page, const calib::Report& report) {
