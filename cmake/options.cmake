@@ -152,7 +152,7 @@ function(navcal_room name)
 endfunction()
 
 # navcal_text(TARGET FILE NAMESPACE FUNCTION): a file of text becomes part of the program. FUNCTION in NAMESPACE returns it as
-# std::string_view; who calls it declares it.
+# const char*; who calls it declares it.
 function(navcal_text target file text_namespace text_function)
   set(text_file ${CMAKE_CURRENT_SOURCE_DIR}/${file})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${text_file})

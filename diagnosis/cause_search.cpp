@@ -228,11 +228,10 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
 CauseSearchResult search_causes(const RecordingModel& recording, const JointPrior& prior,
                                 const CauseLibrary& library, const Progress& progress) {
   CauseSearchResult result;
+  Eigen::VectorXd no_change = Eigen::VectorXd::Zero(library.columns());
   // Causes are looked for where the nominal vehicle is: its tolerances, fitted to a gap, lead astray.
   auto first = recording.fit(prior.mean);
-  auto nominal = settled(recording, prior, prior.mean, [&](const Likelihood&) {
-    return Eigen::VectorXd(Eigen::VectorXd::Zero(library.columns()));
-  });
+  auto nominal = settled(recording, prior, prior.mean, [&](const Likelihood&) { return no_change; });
   if (!nominal) throw cannot_follow(recording.recording());
   if (!first) first = nominal;
   result.none = nominal->linear;

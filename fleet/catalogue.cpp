@@ -14,7 +14,7 @@
 
 namespace navcal::fleet {
 
-std::string_view catalogue_tables();  // catalogue.sql, which the build puts into the program
+const char* catalogue_tables();  // catalogue.sql, which the build puts into the program
 
 namespace {
 
@@ -68,7 +68,7 @@ bool is_recording(const fs::path& file) { return file.extension() == ".cap" || f
 void make_catalogue(Database& database, const std::string& name) {
   const int format = format_of(database);
   if (format != 0 && format != kCatalogueFormat) fail_of_format(name);
-  database.execute(std::string(catalogue_tables()));
+  database.execute(catalogue_tables());
   database.execute(fmt::format("PRAGMA user_version={}", kCatalogueFormat));
 }
 

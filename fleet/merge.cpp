@@ -12,7 +12,7 @@
 
 namespace navcal::fleet {
 
-std::string_view merge_tables();  // merge.sql, which the build puts into the program
+const char* merge_tables();  // merge.sql, which the build puts into the program
 
 namespace {
 
@@ -47,7 +47,7 @@ MergeSummary fill(const Plan& plan, Database& database) {
 
 }  // namespace
 
-void make_merge_tables(Database& database) { database.execute(std::string(merge_tables())); }
+void make_merge_tables(Database& database) { database.execute(merge_tables()); }
 
 MergeTables::MergeTables(Database& database)
     : recording_(database, "INSERT INTO recordings VALUES(?1, ?2, ?3)"),

@@ -162,8 +162,7 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   if (available > 1 && first[1] != 0x7F) return Scan::not_a_frame();
   if (available < kHeader) return Scan::incomplete(kHeader + 4 - available);
   const std::size_t length = get_le<std::uint16_t>(first + 2);  // without the checksum
-  if (first[5] == 0 || length < kHeader + std::size_t{4} * first[5] || length + 2 > kMaxLength)
-    return Scan::not_a_frame();
+  if (first[5] == 0 || length < kHeader + 4UL * first[5] || length + 2 > kMaxLength) return Scan::not_a_frame();
   if (available < length + 2) return Scan::incomplete(length + 2 - available);
   if (sum_of(Bytes(first, length)) != get_le<std::uint16_t>(first + length)) return Scan::bad_checksum();
   return Scan::frame(length + 2, kEnsemble);

@@ -10,8 +10,9 @@ namespace navcal::protocols {
 /// A day of the (proleptic) Gregorian calendar.
 struct Date {
   std::uint16_t year = 0;
-  std::uint8_t month = 0;                                   ///< 1-12
-  std::uint8_t day = 0;                                     ///< 1-31
+  std::uint8_t month = 0;  ///< 1-12
+  std::uint8_t day = 0;    ///< 1-31
+
   constexpr auto operator<=>(const Date&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };
 
@@ -20,8 +21,7 @@ struct TimeOfDay {
   std::uint8_t minute = 0;
   std::uint8_t second = 0;  ///< 60 in a leap second
   std::uint32_t nanosecond = 0;
-  constexpr auto operator<=>(const TimeOfDay&) const =
-      default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
+  constexpr auto operator<=>(const TimeOfDay&) const = default;  // NOLINT(modernize-use-nullptr): the same
 };
 
 /// Whether the date exists in the calendar, years 1 to 9999.

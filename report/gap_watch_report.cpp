@@ -15,10 +15,7 @@ namespace {
 
 using EventJson = nlohmann::ordered_json;
 
-double seconds(std::int64_t time_ns) {
-  const std::int64_t whole_ms = time_ns / 1'000'000;
-  return static_cast<double>(whole_ms) * 1e-3;
-}
+double seconds(std::int64_t time_ns) { return 1e-3 * static_cast<double>(std::int64_t{time_ns / 1'000'000}); }
 
 std::string_view event_name(gap::WatchEvent::Kind kind) {
   return base::enum_name<gap::WatchEvent::Kind::unknown>(kind, {"status", "skipped", "alarm", "cause", "unknown"});

@@ -8,7 +8,7 @@
 
 namespace navcal::report {
 
-std::string_view page_style();  // page.css, which the build puts into the program
+const char* page_style();  // page.css, which the build puts into the program
 
 namespace {
 

@@ -280,7 +280,7 @@ AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going
   try {
     read_samples(log, file, request.window, keep_going);
   } catch (const record::NothingInWindow& error) {
-    // What was imported has a name that nobody knows.
+    // An imported log has a name that the user does not know.
     throw record::NothingInWindow(base::Exit::usage, request.file + std::string(error.what()).substr(file.size()));
   }
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;

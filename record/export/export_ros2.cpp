@@ -175,7 +175,7 @@ Exported export_bag(const std::filesystem::path& log_file, const std::filesystem
     const std::string_view seconds = from_time.substr(std::min(kTime.size(), from_time.size()));
     const auto arrival_ns =
         utc.mapping().to_utc(static_cast<std::int64_t>(message->log_time_ns) - log.log_offset_ns());
-    // What no instrument measured (/health) has its time in words: it was sent when it was true.
+    // /health has its time in words. No instrument measured it, so it holds for the time when it was sent.
     const auto time_ns = seconds.starts_with('"') ? std::optional(arrival_ns)
                                                   : nanoseconds(seconds.substr(0, seconds.find_first_of(",}")));
     const auto made = samples.made_of(channel.topic, json, time_ns.value_or(0));

@@ -81,7 +81,7 @@ TEST_F(WrongUsage, AWindowWithoutAReadingIsNoEmptyAnswer) {
   expect_refused("calibrate a.cap --from 2026-01-01T00:00:09Z --to 2026-01-01T00:00:09Z", 2, "is not before");
   expect_refused("calibrate a.cap --from 5 --to 2025-01-01T00:00:00Z", 2, "leave nothing of the recording");
   EXPECT_EQ(run("calibrate a.cap --from 2026-01-01T00:00:05Z").status, 0);
-  // What is imported for the audit is told by the name that it was given.
+  // A log that is imported for the audit keeps its name in messages.
   std::filesystem::copy(NAVCAL_SOURCE_DIR "/share/samples/three-faults.BIN", folder_ / "dive.BIN");
   const auto outside = run("audit dive.BIN --from 9000");
   EXPECT_EQ(outside.status, 2);

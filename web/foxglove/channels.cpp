@@ -182,11 +182,10 @@ Quaternion orientation_in_map(double heading_rad, double pitch_rad, double roll_
 
 Derived Deriver::derive(const Record& record, std::int64_t time_ns) {
   const bool is_fix = record.topic == "/gps", is_event = record.topic == "/event";
-  Derived derived;
-  if (record.utc_ns) derived.ros = ros_.made_of(record.topic, record.message, *record.utc_ns);
-  if (!is_fix && !is_event && record.topic != "/nav") return derived;
+  if (!is_fix && !is_event && record.topic != "/nav") return {};
   const auto message = nlohmann::json::parse(record.message, nullptr, false);
-  if (!message.is_object()) return derived;
+  if (!message.is_object()) return {};
+  Derived derived;
   if (is_fix) {
     derived.location = location_of_fix(message, time_ns);
   } else if (is_event) {
@@ -241,39 +240,43 @@ Channel* Channels::known(Channel channel, const std::string& topic, const std::s
   return &channels_.emplace(key, std::move(channel)).first->second;
 }
 
-std::size_t Channels::learn_ros(const Record& record, std::int64_t time_ns, std::uint64_t serial) {
-  for (const record::RosMessage& made : derived_of(record, time_ns, serial).ros) {
-    const std::string source(record.topic);
-    Channel* const channel =
-        known({.sources = {source}, .ros_topic = made.topic}, made.topic, made.type->name, made.type->definition);
-    if (channel == nullptr) continue;
-    if (std::ranges::find(ros_, channel) == ros_.end()) ros_.push_back(channel);
-    // The temperature of a port may come with more than one of its samples.
-    if (std::ranges::find(channel->sources, source) == channel->sources.end()) channel->sources.push_back(source);
+std::size_t Channels::learn_ros(const Record& record, std::uint64_t serial) {
+  turn_to(record, serial);
+  const std::string source(record.topic);
+  for (const record::RosMessage& made : ros_made_) {
+    const auto found = std::ranges::find(ros_, made.topic, &Channel::ros_topic);
+    if (found == ros_.end()) {
+      Channel channel{.sources = {source}, .ros_topic = made.topic};
+      if (auto* const added = known(std::move(channel), made.topic, made.type->name, made.type->definition))
+        ros_.push_back(added);
+    } else if (auto& sources = (*found)->sources; std::ranges::find(sources, source) == sources.end()) {
+      sources.push_back(source);  // the temperature of a port may come with more than one of its samples
+    }
   }
   return ros_.size();
 }
 
 std::optional<std::string_view> Channels::message(const Channel& channel, const Record& record,
                                                   std::int64_t time_ns, std::uint64_t serial) {
+  turn_to(record, serial);
   if (!channel.ros_topic.empty()) {
-    const auto& messages = derived_of(record, time_ns, serial).ros;
-    const auto found = std::ranges::find(messages, channel.ros_topic, &record::RosMessage::topic);
-    return found != messages.end() ? std::optional<std::string_view>(found->cdr) : std::nullopt;
+    const auto found = std::ranges::find(ros_made_, channel.ros_topic, &record::RosMessage::topic);
+    return found != ros_made_.end() ? std::optional<std::string_view>(found->cdr) : std::nullopt;
   }
   if (channel.member == nullptr) return record.message;
-  const auto& made = derived_of(record, time_ns, serial).*channel.member;
+  if (!derived_) derived_ = deriver_.derive(record, time_ns);
+  const auto& made = *derived_.*channel.member;
   return made ? std::optional<std::string_view>(*made) : std::nullopt;
 }
 
-const Derived& Channels::derived_of(const Record& record, std::int64_t time_ns, std::uint64_t serial) {
+void Channels::turn_to(const Record& record, std::uint64_t serial) {
   std::string from = std::string(record.topic) + ' ' + std::string(record.device);
-  if (serial != derived_serial_ || from != derived_from_) {
-    derived_ = deriver_.derive(record, time_ns);
-    derived_serial_ = serial;
-    derived_from_ = std::move(from);
-  }
-  return derived_;
+  if (serial == made_serial_ && from == made_from_) return;
+  made_serial_ = serial;
+  made_from_ = std::move(from);
+  derived_.reset();
+  ros_made_.clear();
+  if (record.utc_ns) ros_made_ = samples_.made_of(record.topic, record.message, *record.utc_ns);
 }
 
 }  // namespace navcal::web::foxglove

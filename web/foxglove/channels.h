@@ -18,7 +18,7 @@
 namespace navcal::web::foxglove {
 
 /// The JSON schemas of Foxglove that navcal writes: a list, each with its name as `title`.
-[[nodiscard]] std::string_view schemas_json();
+[[nodiscard]] const char* schemas_json();
 
 struct Quaternion {
   double x = 0, y = 0, z = 0, w = 1;
@@ -33,7 +33,6 @@ struct Derived {
   std::optional<std::string> pose;       ///< foxglove.PoseInFrame
   std::optional<std::string> transform;  ///< foxglove.FrameTransform
   std::optional<std::string> log;        ///< foxglove.Log
-  std::vector<record::RosMessage> ros;   ///< as in a bag of ROS 2; none while UTC is unknown
 };
 
 /// Standard error that stands for an unknown one, m: so large that no filter is led by the value.
@@ -41,7 +40,7 @@ inline constexpr double kUnknownStd_m = 1e6;
 
 class Deriver {
  public:
-  /// `time_ns`: time of validity, UTC. A record that is no JSON object gives nothing.
+  /// `time_ns`: time of validity, UTC. A record that is no JSON object, or of another topic, gives nothing.
   [[nodiscard]] Derived derive(const Record& record, std::int64_t time_ns);
 
  private:
@@ -49,7 +48,6 @@ class Deriver {
   [[nodiscard]] std::array<double, 2> position_in_map(double latitude_deg, double longitude_deg);
 
   std::optional<base::LocalPlane> origin_;
-  record::SampleMessages ros_;
 };
 
 /// A stream of messages that viewers may subscribe to.
@@ -71,7 +69,7 @@ class Channels {
 
   /// Adds the channels of ROS that `record` has messages for: their topics carry names of ports, which no list of
   /// topics tells. How many there are.
-  std::size_t learn_ros(const Record& record, std::int64_t time_ns, std::uint64_t serial);
+  std::size_t learn_ros(const Record& record, std::uint64_t serial);
 
   /// Message of `record` for `channel`; the view holds until the next call. Nullopt: the record gives none.
   /// `serial` numbers the records: what is derived from one is kept for the next viewer.
@@ -81,14 +79,18 @@ class Channels {
  private:
   Channel* known(Channel channel, const std::string& topic, const std::string& schema_name,
                  const std::string& schema);
-  const Derived& derived_of(const Record& record, std::int64_t time_ns, std::uint64_t serial);
+  /// Makes the messages of ROS of this record, unless it is the one of before.
+  void turn_to(const Record& record, std::uint64_t serial);
 
   std::map<std::tuple<std::string, std::string, std::string>, Channel> channels_;
-  std::vector<const Channel*> ros_;
+  std::vector<Channel*> ros_;
   Deriver deriver_;
-  Derived derived_;
-  std::string derived_from_;  ///< topic and device
-  std::uint64_t derived_serial_ = 0;
+  record::SampleMessages samples_;
+  // Of the newest record, which `made_from_` (topic and device) and `made_serial_` name.
+  std::vector<record::RosMessage> ros_made_;  ///< as in a bag of ROS 2; none while UTC is unknown
+  std::optional<Derived> derived_;            ///< once a viewer has asked
+  std::string made_from_;
+  std::uint64_t made_serial_ = 0;
 };
 
 }  // namespace navcal::web::foxglove

@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "base/utc_text.h"
 #include "web/foxglove/channels.h"
@@ -41,7 +42,9 @@ class Viewer final : public Peer, public Subscriber {
   void on_open() override {
     shared_->hub.add(*this, {});
     link_.send_text(server_info("navcal", shared_->version, shared_->session));
-    shared_->hub.repeat_newest([this](const Record& record) { learn_ros(record); });
+    shared_->hub.repeat_newest([this](const Record& record) {
+      ros_channels_ = shared_->channels.learn_ros(record, shared_->hub.published());
+    });
     tell_channels();
     const Link& source = shared_->hub.link();
     if (!source.connected) tell(StatusLevel::warning, source.problem);
@@ -65,7 +68,8 @@ class Viewer final : public Peer, public Subscriber {
     if (report) link_.send_text(status(StatusLevel::warning, *report, "dropped"));
   }
   void on_record(const Record& record) override {
-    if (learn_ros(record)) tell_channels();
+    const std::size_t channels = shared_->channels.learn_ros(record, shared_->hub.published());
+    if (channels != std::exchange(ros_channels_, channels)) tell_channels();
     deliver(record, nullptr);
   }
   void on_link(const Link& state) override {
@@ -75,12 +79,6 @@ class Viewer final : public Peer, public Subscriber {
   void on_topics() override { tell_channels(); }
 
  private:
-  /// Whether there are more channels of ROS than before.
-  bool learn_ros(const Record& record) {
-    const std::size_t known = ros_channels_;
-    ros_channels_ = shared_->channels.learn_ros(record, time_of(record), shared_->hub.published());
-    return ros_channels_ > known;
-  }
   void tell(StatusLevel level, std::string_view message) { link_.send_text(status(level, message)); }
   /// Tells the client what has changed since it was last told. When its queue is full, this is done once it has
   /// read.

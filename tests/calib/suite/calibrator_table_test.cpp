@@ -16,8 +16,6 @@ namespace {
 
 using namespace test;
 
-constexpr Instruments kAll{true, true, true, true, true};
-
 std::string saved_unit(CalibratorUnit& unit) {
   Archive archive;
   unit.archive(archive);
@@ -100,7 +98,7 @@ TEST(CalibratorTable, EachValueIsCopiedAloneAndSaysItsNumbers) {
 }
 
 TEST(CalibratorUnits, WithoutReadingsEachIsRefusedWithAReason) {
-  Suite suite(thesis_options(), kAll);
+  Suite suite(thesis_options(), kEveryInstrument);
   const Report report = suite.report();
   ASSERT_EQ(report.calibrators.size(), calibrators().size());
   for (const CalibratorReport& one : report.calibrators) {
@@ -112,10 +110,10 @@ TEST(CalibratorUnits, WithoutReadingsEachIsRefusedWithAReason) {
 
 TEST(CalibratorUnits, EachIsSavedAndRestoredExactly) {
   const ScopedCalibrator added(kMeanPitch);
-  Suite suite(thesis_options(), kAll);
+  Suite suite(thesis_options(), kEveryInstrument);
   feed(suite);
   const std::string state = saved(suite);
-  Suite other = restored(state, thesis_options(), kAll);
+  Suite other = restored(state, thesis_options(), kEveryInstrument);
   EXPECT_EQ(saved(other), state);
   const Report before = suite.report(), after = other.report();
   for (std::size_t i = 0; i < before.calibrators.size(); ++i) {
@@ -155,13 +153,13 @@ TEST(CalibratorUnits, EachUnitThatHasAStateSavesItByItself) {
 }
 
 TEST(AddedCalibrator, AStateFromBeforeItIsReadAndOneWithItIsRefusedWithoutIt) {
-  Suite old(thesis_options(), kAll);
+  Suite old(thesis_options(), kEveryInstrument);
   feed(old);
   const std::string before = saved(old);
   std::string with;
   {
     const ScopedCalibrator added(kMeanPitch);
-    Suite suite(thesis_options(), kAll);
+    Suite suite(thesis_options(), kEveryInstrument);
     feed(suite);  // to be forgotten
     Archive restoring{std::string_view(before)};
     suite.archive(restoring);
@@ -171,7 +169,7 @@ TEST(AddedCalibrator, AStateFromBeforeItIsReadAndOneWithItIsRefusedWithoutIt) {
     EXPECT_EQ(suite.in_force().name(), old.in_force().name());
     with = saved(suite);
   }
-  Suite without(thesis_options(), kAll);
+  Suite without(thesis_options(), kEveryInstrument);
   Archive restoring{std::string_view(with)};
   without.archive(restoring);
   EXPECT_FALSE(restoring.ok());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the whole suite says along one eventful drive, as it was when this was written (fixtures/calib): a change
-// of an estimate, a judgement or a word shows here, whether it was meant or not. Whether it is right is for other
-// tests.
+// Reports of the whole suite along eventful drives, as they were when this was written (fixtures/calib): a change
+// of an estimate, a judgement or a word shows here, whether it was meant or not. Whether they are right is for
+// other tests.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,8 +19,6 @@ namespace {
 using namespace test;
 
 constexpr double kDriveStep_s = 0.1;
-constexpr Instruments kEveryInstrument{
-    .compass = true, .rate = true, .ground = true, .motor = true, .reference = true};
 
 /// A vehicle with all instruments, ten readings a second, in a sea that sets to the north-east.
 class Drive {

@@ -45,6 +45,7 @@ inline SuiteOptions thesis_options() {
   return options;
 }
 inline constexpr Instruments kCompassAndGyros{true, true, false, false};
+inline constexpr Instruments kEveryInstrument{true, true, true, true, true};
 
 inline std::string saved(Suite& suite) {
   Archive archive;

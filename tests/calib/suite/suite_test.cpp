@@ -201,7 +201,7 @@ TEST(Suite, TurnsToEitherSideAreJudged) {
   }
 }
 
-// What was saved after finish() goes on as the suite itself does.
+// A state saved after finish() goes on as the suite itself does.
 TEST(Suite, AfterItsFinishItGoesOnLikeOneThatWasRestored) {
   const auto readings = readings_along("path5", thesis_deviation(), {}, 7);
   Suite whole(thesis_options(), kCompassAndGyros);

@@ -4,8 +4,8 @@
 //
 // Its clock is 30 ppm fast; each frame is sent 1 ms + 0 to 20 ms after its time. After half of the time it restarts: its clock
 // begins anew. It has added -50 mGauss to the first axis of its compass. Half of the frames of its echo sounder have the sum of
-// before their zeros were cut, as BlueOS sends them. It answers TIMESYNC. The file that it writes has the true time of each inertial reading, what was
-// sent, and what came.
+// before their zeros were cut, as BlueOS sends them. It answers TIMESYNC. The file that it writes has the true time of each inertial
+// reading, what was sent, and what came.
 //
 // OPTIONS is a JSON object: `parameters` {name: [value, type]} are all that it has, and may be set; `most` {name: value} clamps
 // one; `loss` is the share of requests and of answers that get lost; it is `armed`, or arms when `arms_after` parameters were set

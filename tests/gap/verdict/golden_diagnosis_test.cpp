@@ -18,7 +18,7 @@
 namespace navcal::gap {
 namespace {
 
-/// What a diagnosis says, line by line.
+/// A diagnosis line by line.
 class Digest {
  public:
   explicit Digest(const Diagnosis& found) {
@@ -82,7 +82,7 @@ class Digest {
   [[nodiscard]] const navcal::test::GoldenLines& lines() const { return lines_; }
 
  private:
-  /// Of absolute values: what is not there counts nothing.
+  /// The sum of absolute values. A value that is not a number counts nothing.
   static double sum_of(const std::vector<double>& values) {
     double sum = 0;
     for (const double value : values) sum += std::isfinite(value) ? std::abs(value) : 0;

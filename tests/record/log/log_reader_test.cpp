@@ -115,9 +115,8 @@ TEST(LogReader, RefusesWhatIsNotALog) {
     FAIL();
   } catch (const BadRecording& error) {
     EXPECT_STREQ(error.what(),
-                 "test.mcap: byte 8: an MCAP file, but not a log of navcal (its profile is \"ros2\"); \"navcal "
-                 "log import\" "
-                 "reads bags of ROS 2");
+                 "test.mcap: byte 8: an MCAP file, but not a log of navcal (its profile is \"ros2\"); "
+                 "\"navcal log import\" reads bags of ROS 2");
   }
 }
 

@@ -105,7 +105,7 @@ function judgeDerived(viewer) {
   }
 }
 
-/** Messages of ROS 2 are those of the bag that navcal makes of the log, in its order and can be read by their definition. */
+/** Messages of ROS 2 are those of the bag that navcal makes of the log, in its order, and can be read by their definition. */
 async function judgeRos(viewer, live, log) {
   const bag = join(folder, "bag.mcap");
   execFileSync(join(build, "cli/navcal"), ["log", "export", "--ros2", bag, log], { stdio: "pipe" });
@@ -208,10 +208,11 @@ try {
   judgeDerived(viewer);
   judgeLayouts(viewer);
   await survivesTheDaemon(viewer);
-  const { topics, schemas } = readLogs(vehicle.logs().sort().slice(0, 1));
+  const [log] = vehicle.logs().sort();
+  const { topics, schemas } = readLogs([log]);
   let compared = 0;
   const isOfRos = (topic) => viewer.channels.get(topic).encoding === "cdr";
-  const judged = await judgeRos(viewer, live, vehicle.logs().sort()[0]);
+  const judged = await judgeRos(viewer, live, log);
   for (const [topic, messages] of live) {
     if (topic.startsWith("/foxglove/") || isOfRos(topic) || messages.length === 0) continue;
     compare(topic, messages, topics.get(topic) ?? [], viewer.early.get(topic));
