@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
-#include "protocols/device_types.h"
+#include "config/roles.h"
 #include "record/recording.h"
 
 namespace navcal::record {
@@ -50,8 +51,9 @@ void SeenRecordings::read(Pieces& into) {
   while (const auto entry = recording->next()) {
     const auto* raw = std::get_if<RawRead>(&*entry);
     if (raw == nullptr || raw->direction != Direction::received || raw->port >= ports.size()) continue;
-    const auto& delivers = protocols::device_row(ports[raw->port].protocol).delivers;
-    if (!delivers.rates && !delivers.field && !delivers.heading) continue;
+    constexpr std::array kRoles{config::Role::rates, config::Role::field, config::Role::heading};
+    if (std::ranges::none_of(kRoles, [&](auto role) { return config::can_deliver(ports[raw->port], role); }))
+      continue;
     if (!first_ns) first_ns = raw->time_ns;
     into.duration_s = static_cast<double>(raw->time_ns - *first_ns) * 1e-9;
     PieceCutter& cutter = cutters[raw->port];

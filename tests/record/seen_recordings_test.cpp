@@ -24,7 +24,7 @@ class SeenRecordingsTest : public ::testing::Test {
       bytes.push_back(noise ? byte : static_cast<unsigned>(i % 50));
     }
     std::ofstream out(folder_ / name);
-    out << "#capture 1\n#port " << name.substr(0, 1) << " imu-card 57600\n";
+    out << "#capture 1\n#port " << name.substr(0, 1) << " imu-card 57600\n#port outputs described 115200\n";
     for (std::size_t i = 500U * static_cast<std::size_t>(from_s); i + chunk <= bytes.size(); i += chunk) {
       out << fmt::format("{:.9f} {} < ", 1.9e9 + seed + static_cast<double>(i) / 500, name.substr(0, 1));
       for (std::size_t k = i; k < i + chunk; ++k) out << fmt::format("{:02x}", bytes[k]);
@@ -43,6 +43,21 @@ TEST_F(SeenRecordingsTest, ARecordingIsKnownAgainWhateverItsReadsAndPorts) {
   EXPECT_EQ(again->of.filename(), "a");
   EXPECT_TRUE(again->is_whole);
   EXPECT_NEAR(again->shared_s, 60, 1);
+}
+
+TEST_F(SeenRecordingsTest, TheSameOrdersMakeNoSameRecording) {
+  for (const unsigned seed : {1U, 2U}) {
+    const auto file = made(seed == 1 ? "a" : "b", seed, 0, 30);
+    std::ofstream out(file, std::ios::app);
+    for (int i = 0; i < 300; ++i) {
+      out << fmt::format("{:.9f} outputs < ", 1.9e9 + seed + 30 + 0.1 * i);
+      for (const char one : fmt::format("$PNCAO,{},{},1500,1500,,,,*00\r\n", 1500 + i, 1900 - i))
+        out << fmt::format("{:02x}", static_cast<unsigned>(one));
+      out << '\n';
+    }
+    out.close();
+    EXPECT_FALSE(seen_.see(file)) << seed;
+  }
 }
 
 TEST_F(SeenRecordingsTest, PartsAndOverlapsAreTold) {
