@@ -3,7 +3,10 @@
 
 #include "api/diagnosis_request.h"
 #include "api/guard.h"
+#include "diagnosis/diagnose_layout.h"
+#include "emulation/chosen_vehicle.h"
 #include "report/gap_report.h"
+#include "report/simulators/transfer.h"
 
 namespace navcal::api {
 namespace {
@@ -20,7 +23,7 @@ Verdict verdict_of(gap::Verdict verdict) {
 std::vector<Effect> effects_of(const std::vector<gap::EffectFinding>& findings) {
   std::vector<Effect> effects;
   for (const auto& finding : findings) {
-    Effect effect{finding.name, finding.probability, {}, {}};
+    Effect effect{finding.name, finding.of, finding.probability, {}, {}};
     for (const auto& parameter : finding.parameters)
       effect.parameters.push_back({parameter.name, parameter.value, parameter.std_error});
     for (const auto& other : finding.confused_with)
@@ -71,8 +74,15 @@ Diagnosis diagnose(const std::filesystem::path& mission, const DiagnoseOptions& 
 
 Diagnosis diagnose_together(const std::vector<std::filesystem::path>& missions, const DiagnoseOptions& options) {
   return guarded_with_progress(options.progress, [&](ProgressRelay& relay) {
-    const gap::Request request = request_of(missions, options);
-    return diagnosis_of(gap::diagnose(request, [&](std::string_view step, double share) { relay(step, share); }));
+    const auto tell = [&](std::string_view step, double share) { relay(step, share); };
+    const auto layout = emulation::layout_in(options.vehicle);
+    const gap::Request request = request_of(missions, options, layout.has_value());
+    if (!layout) return diagnosis_of(gap::diagnose(request, tell));
+    const gap::Diagnosis found = diagnosis::diagnose(
+        request, {.layout = *layout, .excluded = {}, .is_steady = options.steady}, options.nominals, tell);
+    Diagnosis answer = diagnosis_of(found);
+    answer.layout_toml = report::corrected_layout(found, missions.front().string(), *layout).text;
+    return answer;
   });
 }
 

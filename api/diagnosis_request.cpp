@@ -28,10 +28,13 @@ std::vector<gap::Quantity> quantities_named(const std::string& name) {
 
 }  // namespace
 
-gap::Request request_of(const std::vector<std::filesystem::path>& missions, const DiagnoseOptions& options) {
+gap::Request request_of(const std::vector<std::filesystem::path>& missions, const DiagnoseOptions& options,
+                        bool is_of_layout) {
   if (missions.empty()) throw Error(ErrorKind::bad_argument, "missions: at least one recording is needed");
+  if (!is_of_layout && (!options.nominals.empty() || options.steady))
+    throw Error(ErrorKind::bad_argument, "nominals and steady need a layout (vehicle)");
   for (const std::string& name : options.exclude) {
-    if (!sim::make_effect(name))
+    if (!is_of_layout && !sim::make_effect(name))
       throw Error(ErrorKind::bad_argument, fmt::format("exclude {}: {}", name, sim::unknown_effect(name)));
   }
   if (options.bank < gap::kLeastNulls || options.bank > gap::kMostNulls)
@@ -41,7 +44,7 @@ gap::Request request_of(const std::vector<std::filesystem::path>& missions, cons
   request.missions = missions;
   request.holdouts = options.holdouts;
   if (!options.config.empty()) request.settings = config::load(options.config);
-  if (!options.vehicle.empty()) request.vehicle = config::load_vehicle(options.vehicle);
+  if (!is_of_layout && !options.vehicle.empty()) request.vehicle = config::load_vehicle(options.vehicle);
   request.excluded = options.exclude;
   for (const std::string& name : options.without) {
     const auto quantities = quantities_named(name);

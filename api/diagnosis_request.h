@@ -10,9 +10,9 @@
 
 namespace navcal::api {
 
-/// A request for a diagnosis by the options of the interface. Throws Error of the kind bad_argument, and what the
-/// readers of its files throw.
+/// A request for a diagnosis by the options of the interface, without its vehicle where that is a layout. Throws
+/// Error of the kind bad_argument, and what the readers of its files throw.
 [[nodiscard]] gap::Request request_of(const std::vector<std::filesystem::path>& missions,
-                                      const DiagnoseOptions& options);
+                                      const DiagnoseOptions& options, bool is_of_layout = false);
 
 }  // namespace navcal::api

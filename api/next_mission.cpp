@@ -8,6 +8,7 @@
 #include "api/guard.h"
 #include "config/mission_limits.h"
 #include "config/mission_text.h"
+#include "emulation/chosen_vehicle.h"
 #include "gap/verdict/study.h"
 #include "report/next_mission.h"
 
@@ -45,6 +46,9 @@ NextMission plan_next_mission(const std::vector<std::filesystem::path>& missions
   return guarded_with_progress(options.diagnosis.progress, [&](ProgressRelay& relay) {
     const auto tell = [&](std::string_view step, double share) { relay(step, share); };
     const config::MissionLimits limits = limits_of(options);
+    if (emulation::layout_in(options.diagnosis.vehicle))
+      throw Error(ErrorKind::bad_argument,
+                  "vehicle: missions are planned for vehicle files only, not for layouts");
     const auto study = gap::study(request_of(missions, options.diagnosis), tell);
     const gap::NextMission plan = gap::plan_next_mission(*study, limits, tell);
     const report::NextMissionSource source = source_of(missions, options);

@@ -3,11 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -30,7 +28,6 @@
 #include "emulation/chosen_vehicle.h"
 #include "gap/verdict/request.h"
 #include "record/recording.h"
-#include "record/seen_recordings.h"
 #include "report/gap_report.h"
 #include "report/simulators/transfer.h"
 #include "sim/effects/choice.h"
@@ -129,48 +126,17 @@ struct GapCommandOptions : GapRequestOptions {
   }
 };
 
-/// The diagnosis of a vehicle that a layout describes.
-gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layout& layout) {
-  if (options.where.field_uT())
-    throw std::invalid_argument(
-        "--field: the diagnosis of a layout takes the heading's offset from each recording");
-  if (options.bank_missions != gap::Request{}.bank_missions)
-    throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
-  diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
-                               .holdouts = {},
-                               .nominals = {},
-                               .settings = {},
-                               .window = options.window(),
-                               .without = quantities_of(options.without)};
-  record::SeenRecordings seen;
-  std::vector<std::string> repeated;
-  (void)seen.see(files.recording);
-  const std::vector<std::string> others(options.source.missions.begin() + 1, options.source.missions.end());
-  for (const auto& [given, to] : {std::pair{&others, &files.others},
-                                  {&options.source.holdouts, &files.holdouts},
-                                  {&options.nominals, &files.nominals}})
-    std::copy_if(given->begin(), given->end(), std::back_inserter(*to),
-                 [&](const std::string& file) { return seen.is_new(file, repeated); });
-  if (!options.source.config.empty()) files.settings = config::load(options.source.config);
-  diagnosis::LayoutRequest request{.layout = layout, .excluded = options.source.excluded};
-  request.seed = options.bank_seed;
-  request.is_steady = options.is_steady;
-  base::Progress progress("gap", base::Progress::Answer::at_the_end);
-  const auto show = [&](std::string_view what, double done) { progress.show(what, done); };
-  gap::Diagnosis answer = diagnosis::diagnose(request, diagnosis::load(files, show), show);
-  answer.remarks.insert(answer.remarks.end(), repeated.begin(), repeated.end());
-  return answer;
-}
-
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const std::optional<config::Layout>& layout) {
-  if (layout) return diagnosis_of(options, *layout);
-  if (!options.nominals.empty())
+  if (!layout && !options.nominals.empty())
     throw std::invalid_argument(
         "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
-  if (options.is_steady) throw std::invalid_argument("--steady needs a layout (--vehicle)");
-  const gap::Request request = gap_request_of(options);
+  if (!layout && options.is_steady) throw std::invalid_argument("--steady needs a layout (--vehicle)");
+  const gap::Request request = gap_request_of(options, layout.has_value());
   base::Progress progress("gap", base::Progress::Answer::at_the_end);
-  return gap::diagnose(request, [&](std::string_view what, double done) { progress.show(what, done); });
+  const auto show = [&](std::string_view what, double done) { progress.show(what, done); };
+  if (!layout) return gap::diagnose(request, show);
+  return diagnosis::diagnose(request, {.layout = *layout, .excluded = {}, .is_steady = options.is_steady},
+                             {options.nominals.begin(), options.nominals.end()}, show);
 }
 
 /// Nominal model that the exports correct: with the instruments of --config, else of the recording itself.

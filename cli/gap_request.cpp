@@ -51,12 +51,12 @@ std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
   return emulation::layout_in(options.source.vehicle);
 }
 
-gap::Request gap_request_of(const GapRequestOptions& options) {
+gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout) {
   gap::Request request;
-  if (!options.source.vehicle.empty()) {
+  if (!options.source.vehicle.empty() && !is_of_layout) {
     request.vehicle = std::get<config::VehicleSettings>(emulation::load_chosen_vehicle(options.source.vehicle));
   }
-  expect_effects(options.source.excluded);
+  if (!is_of_layout) expect_effects(options.source.excluded);
   request.missions = {options.source.missions.begin(), options.source.missions.end()};
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
   if (!options.source.config.empty()) request.settings = config::load(options.source.config);

@@ -17,6 +17,7 @@
 #include "diagnosis/nominal_bank.h"
 #include "diagnosis/steady_source.h"
 #include "gap/verdict/recordings_apart.h"
+#include "record/seen_recordings.h"
 
 namespace navcal::diagnosis {
 namespace {
@@ -38,7 +39,7 @@ struct Judged {
   const ModelSource& source;
   const NominalBank& bank;
   const CauseSearchResult& found;
-  const LayoutProgress& progress;
+  const gap::Progress& progress;
 };
 
 /// Predicts each of several recordings by the others.
@@ -125,7 +126,7 @@ std::vector<std::unique_ptr<RecordingModel>> those_judged(const LayoutRecordings
 }
 
 void find_causes(const LayoutRequest& request, const LayoutRecordings& recordings, const CauseLibrary& library,
-                 ModelSource& source, const LayoutProgress& progress, Diagnosis& answer) {
+                 ModelSource& source, const gap::Progress& progress, Diagnosis& answer) {
   answer.remarks.insert(answer.remarks.end(), library.not_judged.begin(), library.not_judged.end());
   NominalBank bank = bank_of(source, library, recordings.nominals, recordings.recording,
                              [&](double done) { progress("nominal recordings", done); });
@@ -205,7 +206,7 @@ std::vector<const RecordedMotion*> LayoutRecordings::together() const {
 }
 
 Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
-                   const LayoutProgress& progress) {
+                   const gap::Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   Diagnosis answer;
   for (const RecordedMotion* recording : recordings.together()) {
@@ -251,19 +252,36 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
   return answer;
 }
 
-LayoutRecordings load(const LayoutFiles& files, const LayoutProgress& progress) {
-  const auto one = [&](const std::filesystem::path& file) {
-    RecordedMotion motion = identify::load_motion(
-        file, [&](double done) { progress("reading " + file.filename().string(), done); }, files.settings,
-        files.window);
-    leave_out(files.without, motion);
-    return motion;
+Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
+                   const std::vector<std::filesystem::path>& nominals, const gap::Progress& progress) {
+  if (files.field_uT)
+    throw std::invalid_argument(
+        "--field: the diagnosis of a layout takes the heading's offset from each recording");
+  if (files.bank_missions != gap::Request{}.bank_missions)
+    throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
+  record::SeenRecordings seen;
+  std::vector<std::string> repeated;
+  const auto load = [&](std::span<const std::filesystem::path> of) {
+    std::vector<RecordedMotion> motions;
+    for (const std::filesystem::path& file : of) {
+      if (!seen.is_new(file, repeated)) continue;
+      motions.push_back(identify::load_motion(
+          file, [&](double done) { progress("reading " + file.filename().string(), done); }, files.settings,
+          files.window));
+      leave_out(files.without, motions.back());
+    }
+    return motions;
   };
-  LayoutRecordings recordings{one(files.recording), {}, {}, {}};
-  for (const auto& file : files.others) recordings.others.push_back(one(file));
-  for (const auto& file : files.holdouts) recordings.holdouts.push_back(one(file));
-  for (const auto& file : files.nominals) recordings.nominals.push_back(one(file));
-  return recordings;
+  const std::span missions(files.missions);
+  LayoutRecordings recordings{std::move(load(missions.first(1)).front()), {}, {}, load(missions.subspan(1))};
+  recordings.holdouts = load(files.holdouts);
+  recordings.nominals = load(nominals);
+  request.excluded = files.excluded;
+  request.seed = files.bank_seed;
+  request.threads = files.threads;
+  Diagnosis answer = diagnose(request, recordings, progress);
+  answer.remarks.insert(answer.remarks.end(), repeated.begin(), repeated.end());
+  return answer;
 }
 
 }  // namespace navcal::diagnosis

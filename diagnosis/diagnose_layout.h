@@ -3,16 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "config/layout.h"
-#include "config/settings.h"
-#include "gap/data/silence.h"
-#include "gap/verdict/diagnosis.h"
+#include "gap/verdict/request.h"
 #include "identify/data/recorded_motion.h"
 
 namespace navcal::diagnosis {
@@ -41,26 +36,17 @@ struct LayoutRecordings {
   [[nodiscard]] std::vector<const identify::RecordedMotion*> together() const;
 };
 
-/// The same as files: captures or logs.
-struct LayoutFiles {
-  std::filesystem::path recording;
-  std::vector<std::filesystem::path> holdouts, nominals;
-  std::optional<config::Settings> settings;  ///< of all recordings, instead of their own
-  record::TimeWindow window{};               ///< the part of all recordings that counts
-  std::vector<gap::Quantity> without{};      ///< left out of all recordings
-  std::vector<std::filesystem::path> others{};
-};
-
-/// Gets the current step and the share of it that is done (0 to 1); may throw to end the work.
-using LayoutProgress = std::function<void(std::string_view what, double done)>;
-
 /// Diagnoses recordings (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded
 /// name that is no cause. A recording that cannot be diagnosed gets the verdict `unknown` and remarks that say
 /// why.
 [[nodiscard]] gap::Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
-                                      const LayoutProgress& progress);
+                                      const gap::Progress& progress);
 
-/// Throws record::BadRecording for a file that is no recording.
-[[nodiscard]] LayoutRecordings load(const LayoutFiles& files, const LayoutProgress& progress);
+/// The same of files: captures or logs. Of `files` recordings, settings, window, exclusions, seed and threads
+/// count. A file that is given twice counts once. Throws record::BadRecording for a file that is no recording, and
+/// std::invalid_argument for a field or a number of null missions, which a layout has no use for.
+[[nodiscard]] gap::Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
+                                      const std::vector<std::filesystem::path>& nominals,
+                                      const gap::Progress& progress);
 
 }  // namespace navcal::diagnosis

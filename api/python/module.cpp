@@ -211,6 +211,8 @@ std::vector<std::filesystem::path> recordings_of(const py::object& given) {
 
 void take_diagnosis(py::kwargs& keywords, api::DiagnoseOptions& options) {
   take(keywords, "holdouts", options.holdouts);
+  take(keywords, "nominals", options.nominals);
+  take(keywords, "steady", options.steady);
   take(keywords, "vehicle", options.vehicle);
   take(keywords, "config", options.config);
   take(keywords, "field_uT", options.field_uT);
@@ -229,6 +231,7 @@ void bind_diagnosis(py::module_& module) {
       .def_readonly("std_error", &api::EffectParameter::std_error);
   py::class_<api::Effect>(module, "Effect", "An effect as a cause.")
       .def_readonly("name", &api::Effect::name)
+      .def_readonly("of", &api::Effect::of)
       .def_readonly("probability", &api::Effect::probability)
       .def_readonly("parameters", &api::Effect::parameters);
   py::class_<api::Diagnosis>(module, "Diagnosis", "The answer of diagnose().")
@@ -247,6 +250,7 @@ void bind_diagnosis(py::module_& module) {
       .def_readonly("seconds", &api::Diagnosis::seconds)
       .def_readonly("json", &api::Diagnosis::json)
       .def_readonly("effects_toml", &api::Diagnosis::effects_toml)
+      .def_readonly("layout_toml", &api::Diagnosis::layout_toml)
       .def("as_dict", [](const api::Diagnosis& answer) { return loads(answer.json); });
   module.def(
       "diagnose",

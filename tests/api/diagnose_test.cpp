@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <navcal/diagnose.h>
+#include <navcal/next_mission.h>
 
 #include <set>
 
@@ -54,6 +55,30 @@ TEST_F(ApiDiagnose, TheAnswerIsThatOfTheProgram) {
       EXPECT_EQ(json["effects"][i]["parameters"][parameter.name].get<double>(), parameter.value);
     }
   }
+}
+
+TEST_F(ApiDiagnose, AVehicleWithALayoutIsDiagnosedAsByTheProgram) {
+  const std::string layout = NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml";
+  for (const char* options :
+       {"--seed 1 -o n1.cap", "--seed 2 -o n2.cap", "--seed 3 --effect thrust_scale@thruster.1=4 -o a.cap"})
+    (void)output_of("simulate --vehicle " + layout + " --mission survey --seconds 40 " + options);
+  DiagnoseOptions options;
+  options.vehicle = layout;
+  options.nominals = {folder_ / "n1.cap", folder_ / "n2.cap"};
+  options.steady = true;  // much faster, and as good as the other way for what is asked here
+  const Diagnosis answer = diagnose(folder_ / "a.cap", options);
+  EXPECT_EQ(without_times(answer.json).dump(),
+            without_times(output_of("gap --steady --vehicle " + layout +
+                                    " --nominal n1.cap --nominal n2.cap --json - a.cap"))
+                .dump());
+  ASSERT_FALSE(answer.candidates.empty());
+  EXPECT_FALSE(answer.candidates.front().of.empty());
+  EXPECT_NE(answer.layout_toml.find("[[thruster]]"), std::string::npos) << answer.layout_toml;
+  NextMissionOptions next;
+  next.diagnosis = options;
+  EXPECT_THROW((void)plan_next_mission({folder_ / "a.cap"}, next), Error);
+  options.vehicle.clear();
+  EXPECT_THROW((void)diagnose(folder_ / "a.cap", options), Error) << "nominal recordings need a layout";
 }
 
 TEST_F(ApiDiagnose, ARecordingThatCannotBeDiagnosedHasAnAnswer) {

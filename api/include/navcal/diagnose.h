@@ -16,8 +16,11 @@ namespace navcal::api {
 /// Options of a diagnosis. The members have the names of the options of `navcal gap`.
 struct DiagnoseOptions {
   std::vector<std::filesystem::path>
-      holdouts;                   ///< other missions of the same vehicle, on which the answer is judged
-  std::filesystem::path vehicle;  ///< the nominal one; empty: the reference vehicle
+      holdouts;  ///< other missions of the same vehicle, on which the answer is judged
+  /// Recordings of the same vehicle without a gap, which show what is no gap; only with a layout.
+  std::vector<std::filesystem::path> nominals;
+  bool steady = false;            ///< judge by mean forces over steady stretches alone; only with a layout
+  std::filesystem::path vehicle;  ///< the nominal one, a vehicle file or a layout; empty: the reference vehicle
   std::filesystem::path config;   ///< of all recordings, instead of their own; empty: none
   std::optional<std::array<double, 3>>
       field_uT;                      ///< the Earth's: north, east, down; nullopt: as the recording states
@@ -25,7 +28,7 @@ struct DiagnoseOptions {
   /// Instruments to be left out of all recordings, as if they were not there: compass, field, tilt, card, gyros,
   /// accelerometers, depth, gps or motor.
   std::vector<std::string> without;
-  int bank = 100;               ///< simulated null missions, 10 to 10000
+  int bank = 100;               ///< simulated null missions, 10 to 10000; not with a layout
   std::uint64_t seed = 1;       ///< of their noise and tolerances
   std::filesystem::path cache;  ///< folder in which null banks are kept; empty: none are kept
   unsigned threads = 0;         ///< 0: as many as there are processors
@@ -66,6 +69,7 @@ struct Confusion {
 /// An effect as a cause.
 struct Effect {
   std::string name;                         ///< as in the library of effects
+  std::string of;                           ///< part of a layout, "thruster.2"; empty: of the whole vehicle
   double probability = 0;                   ///< posterior
   std::vector<EffectParameter> parameters;  ///< all of the effect
   std::vector<Confusion> confused_with;     ///< others that are hard to tell from it
@@ -119,6 +123,7 @@ struct Diagnosis {
   double seconds = 0;                       ///< computing time, without the bank's
   std::string json;                         ///< the answer of `navcal gap --json -`, without its newline
   std::string effects_toml;  ///< the answer of `navcal gap --effects-out`: for SimulateOptions::effects_file
+  std::string layout_toml;   ///< of a layout: the layout with the causes found, as of `--export layout`
 };
 
 /// Diagnoses where and why a recording departs from the model of the vehicle, as `navcal gap` does. `mission` is a

@@ -69,6 +69,7 @@ class EffectParameter:
 
 class Effect:
     name: str
+    of: str
     probability: float
     parameters: list[EffectParameter]
 
@@ -84,6 +85,7 @@ class Diagnosis:
     seconds: float
     json: str
     effects_toml: str
+    layout_toml: str
     def as_dict(self) -> dict[str, Any]: ...
 
 def calibrate(files: Sequence[_Path], config: _Path | None = None, progress: _Progress = None) -> Calibration: ...
@@ -112,6 +114,8 @@ def diagnose(
     progress: _Progress = None,
     *,
     holdouts: Sequence[_Path] | None = None,
+    nominals: Sequence[_Path] | None = None,
+    steady: bool | None = None,
     vehicle: _Path | None = None,
     config: _Path | None = None,
     field_uT: Sequence[float] | None = None,
