@@ -93,6 +93,9 @@ std::vector<Option<Settings>> calibration_options() {
       table.number(
           "bias_walk_deg_s", &CalibrationSettings::bias_walk_rad_s, kDegreesPerSecond, 0, 10,
           "Random walk of a gyro's bias in one second (grows with the root of time), one standard deviation."),
+      table.number(
+          "compass_delay_ms", &CalibrationSettings::compass_delay_s, kMilliseconds, 0, 1900,
+          "Known delay of the compass's readings behind their times, taken off before anything is learned."),
       table.number("current_m_s", &CalibrationSettings::current_m_s, kMetresPerSecond, 0, 10,
                    "Expected water current, one standard deviation of each axis."),
       table.number("advance_m", &CalibrationSettings::advance_m, kMetres, 0, 10,

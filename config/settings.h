@@ -148,6 +148,7 @@ struct CalibrationSettings {
   double heading_noise_rad = 0;  ///< of one reading; 0: as the compass's field and tilt give it
   double field_noise_uT = 0;     ///< likewise
   double bias_walk_rad_s = 0.00034906585039886593;  ///< std of the change in one second: 0.02 deg/s
+  double compass_delay_s = 0;                       ///< of its readings behind their times; known beforehand
   double current_m_s = 0.15;                        ///< standard deviation of the water's, each axis
   /// Through the water for one revolution of the shaft; 0: not known.
   double advance_m = base::reference::kAdvance_m;

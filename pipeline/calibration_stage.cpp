@@ -28,7 +28,8 @@ std::unique_ptr<CalibrationStage> CalibrationStage::make(const config::Settings&
 }
 
 CalibrationStage::CalibrationStage(const config::Settings& settings, const CalibratedPorts& ports)
-    : suite_(suite_options(settings, ports), ports.instruments()), ports_(ports) {
+    : suite_(suite_options(settings, ports), ports.instruments()), ports_(ports),
+      compass_delay_ns_(std::llround(settings.calibration.compass_delay_s * 1e9)) {
   for (const auto& port : settings.ports) protocols_.push_back(port.protocol);
 }
 
@@ -65,7 +66,7 @@ std::optional<instruments::Sample> CalibrationStage::correct(instruments::Sample
     const auto reading = calib::without_motor_field(correction, calib_reading(*compass, sample.stamp, 0),
                                                     fresh ? motor_current_A_ : std::nullopt);
     compass->heading_calibrated_rad = calib::corrected_heading(correction, reading);
-    const auto delay_ns = std::llround(correction.compass_delay_s.value_or(0) * 1e9);
+    const auto delay_ns = compass_delay_ns_ + std::llround(correction.compass_delay_s.value_or(0) * 1e9);
     sample.stamp.validity_ns -= delay_ns;
     sample.stamp.validity_utc_ns -= delay_ns;
   } else if (auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
@@ -89,8 +90,12 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
     if (const auto reference = reference_reading(compass, sample.stamp, seconds(sample.stamp.validity_ns)))
       suite_.put(*reference);
   }
-  if (sample.port == ports_.compass && (is_reading_of_compass(compass) || compass.error))
-    suite_.put(calib_reading(compass, sample.stamp, seconds(sample.stamp.validity_ns)));
+  if (sample.port == ports_.compass && (is_reading_of_compass(compass) || compass.error)) {
+    instruments::Stamp stamp = sample.stamp;
+    stamp.validity_ns -= compass_delay_ns_;
+    stamp.validity_utc_ns -= compass_delay_ns_;
+    suite_.put(calib_reading(compass, stamp, seconds(stamp.validity_ns)));
+  }
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::ImuSample& imu) {

@@ -62,6 +62,7 @@ class CalibrationStage {
 
   calib::Suite suite_;
   CalibratedPorts ports_;
+  std::int64_t compass_delay_ns_;               ///< known beforehand
   std::vector<protocols::Protocol> protocols_;  ///< of each port of the configuration
   std::optional<FieldPlace> field_place_;
   std::int64_t newest_ns_ = 0;             ///< arrival of the newest sample

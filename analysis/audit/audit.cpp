@@ -86,9 +86,12 @@ std::vector<AuditChange> Audit::changes() const {
 
 namespace {
 
+constexpr double kLeastField_uT = 10, kMostField_uT = 140;  ///< of a field in the right unit, with strong iron
+
 /// Leaves out the consequences of what is wrong with rates, forces or axes: they have one cause.
-void leave_out_consequences(std::vector<Finding>& findings) {
-  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also = {}) {
+void leave_out_consequences(std::vector<Finding>& findings, const AuditedLog& log) {
+  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also = {},
+                             std::string_view delays = "delay.") {
     const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
       return (finding.certainty <= Certainty::likely || finding.name == "sampling.times") && is_cause(finding);
     });
@@ -97,7 +100,7 @@ void leave_out_consequences(std::vector<Finding>& findings) {
     for (Finding& finding : findings) {
       for (const std::string_view name :
            std::initializer_list<std::string_view>{"gyro.bias", "gyro.scale", "compass.step", "compass.motor",
-                                                   "compass.iron", "compass.heading", "delay.", also}) {
+                                                   "compass.iron", "compass.heading", delays, also}) {
         if (!name.empty() && finding.name.starts_with(name))
           finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, todo);
       }
@@ -113,8 +116,16 @@ void leave_out_consequences(std::vector<Finding>& findings) {
       "The times are not known", [](const Finding& of) { return of.name == "sampling.times"; }, "force.vibration");
   leave_out("The axes of the field are not what they should be",
             [](const Finding& of) { return of.name == "compass.axes"; });
-  leave_out("The forces that tell the tilt are disturbed",
-            [](const Finding& of) { return of.name.starts_with("force."); });
+  // The calibrators count with the noise of a field in microtesla.
+  leave_out("The size of the field is not what it should be", [&](const Finding& of) {
+    return of.name == "compass.size" && of.channel == log.compass &&
+           (of.value < kLeastField_uT || of.value > kMostField_uT);
+  });
+  // The delay of a field behind the rates needs no tilt.
+  leave_out(
+      "The forces that tell the tilt are disturbed",
+      [](const Finding& of) { return of.name.starts_with("force."); }, {},
+      log.all("field_x").empty() ? "delay." : "delay.course");
 }
 
 /// One quantity in two ways. Where they agree, the first says it. Where not, one of them is wrong: what the first,
@@ -147,7 +158,7 @@ AuditedFile audited(const AuditedLog& log, std::vector<Finding> more) {
     auto findings = group(log);
     std::move(findings.begin(), findings.end(), std::back_inserter(file.findings));
   }
-  leave_out_consequences(file.findings);
+  leave_out_consequences(file.findings, log);
   compare_ways(file.findings);
   sort_findings(file.findings);
   return file;

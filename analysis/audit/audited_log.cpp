@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/audit/bounded.h"
+#include "analysis/audit/heading_errors.h"
 #include "analysis/calibrate_run.h"
 #include "analysis/import/import_log.h"
 #include "analysis/noise/channel_collector.h"
@@ -170,7 +171,8 @@ void subtract_motor(const AuditedLog& log, AuditedCalibration& from, const Eigen
 std::string calibrate(AuditedLog& log, AuditedCalibration& into, const std::string& file,
                       const record::TimeWindow& window, const KeepGoing& keep_going, std::string_view part,
                       const std::string& state) {
-  const auto settings = record::Recording::open(file)->settings();
+  auto settings = record::Recording::open(file)->settings();
+  settings.calibration.compass_delay_s = log.compass_lag_s;
   CalibrateHistory history(settings);
   CalibrateRun run(settings, &history);
   if (!state.empty()) run.begin_with(state);
@@ -286,6 +288,8 @@ AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;
   if (request.also && !log.is_partial) request.also(file);
   if (log.is_partial || log.compass.empty()) return log;
+  const auto rates = log.all("rate_x");
+  if (!rates.empty() && rates.front()->port != log.compass) log.compass_lag_s = field_lag_s(log, log.compass);
   const auto state = calibrate(log, log.whole, file, request.window, keep_going, "calibrating", {});
   // The field of a steady current is no iron: where the motor's field is known, the rest is learned without it.
   if (!state.empty() && !log.is_partial)

@@ -55,7 +55,8 @@ struct AuditedLog {
   std::vector<AuditedStream> streams;
   std::map<std::string, pipeline::PortStatistics> ports;
   std::optional<pipeline::EarthField> earth;
-  std::string compass;  ///< port from which the calibrators learn; empty: none
+  std::string compass;       ///< port from which the calibrators learn; empty: none
+  double compass_lag_s = 0;  ///< taken off its times before the calibrators learn
   AuditedCalibration whole;
   /// Standard errors of headings by port: constant where they are those of the configuration.
   std::map<std::string, Series> heading_std_deg;

@@ -107,8 +107,9 @@ Finding iron_finding(const AuditedLog& log) {
 }
 
 /// A steady current looks like iron. Where the log has a current whose field it does not tell, both are possible.
-void weigh_against_motor(Finding& iron, const Finding& motor) {
-  if (iron.certainty != Certainty::found || motor.certainty != Certainty::cannot_say || !motor.value) return;
+void weigh_against_motor(Finding& iron, const Finding& motor, const AuditedLog& log) {
+  if (iron.certainty != Certainty::found || motor.certainty != Certainty::cannot_say || log.all("current").empty())
+    return;
   iron.certainty = Certainty::likely;
   iron.sentence += " The log does not tell the field of the motor's current, which may be a part of it.";
 }
@@ -230,11 +231,13 @@ Finding heading_finding(const AuditedLog& log, const RecordedChannel& channel) {
 /// A field that no place on Earth has.
 Finding size_finding(const AuditedLog& log, const std::string& port) {
   constexpr double kLeast_uT = 20, kMost_uT = 70;  // 22 to 67 uT by the World Magnetic Model, with a scale error
+  constexpr double kScaleError = 0.01;             // of a good compass
   Finding finding{"compass.size", "Size of the field", port};
   const FieldComparison field = compare_fields(log, port, port);
   const auto size = mean_bounded(block_means(field.time_s, field.size_uT));
   if (!size) return finding.cannot("There are too few readings.");
-  finding.put(*size, "uT");
+  const double own_uT = kScaleError * size->value;
+  finding.put({size->value, size->low - own_uT, size->high + own_uT}, "uT");
   finding.sentence = fmt::format("The field has {:.1f} uT; on Earth it has 22 to 67 uT.", size->value);
   if (size->low <= kMost_uT && size->high >= kLeast_uT) return finding;
   finding.certainty = Certainty::found;
@@ -288,7 +291,7 @@ std::vector<Finding> compass_findings(const AuditedLog& log) {
     append_steps(findings, log);
     if (!log.all("field_x").empty()) {
       Finding motor = motor_finding(log);
-      weigh_against_motor(findings.front(), motor);
+      weigh_against_motor(findings.front(), motor, log);
       findings.push_back(std::move(motor));
     }
     for (const RecordedChannel* channel : log.all("heading")) findings.push_back(heading_finding(log, *channel));

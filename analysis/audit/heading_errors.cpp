@@ -59,6 +59,7 @@ double spread_of(const std::vector<double>& sizes) {
 }
 
 constexpr double kMostApart_s = 0.5;
+constexpr std::size_t kFewestTurns = 15;
 
 /// Vector of three channels of one port, such as field_x, field_y and field_z; not a number where there is none.
 Eigen::Vector3d vector_at(const AuditedLog& log, const std::string& port, const std::string& of, double time_s) {
@@ -68,30 +69,42 @@ Eigen::Vector3d vector_at(const AuditedLog& log, const std::string& port, const 
 
 /// A field before and after a turn by the rates.
 struct FieldTurn {
-  Eigen::Vector3d before, after;
+  double begin_s = 0, end_s = 0;
   Eigen::Matrix3d back;  ///< after = back * before, of the Earth's field
+  Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero();
 };
 
-/// Turns of 0.2 rad within 10 s.
-std::vector<FieldTurn> field_turns(const AuditedLog& log, const std::string& port) {
+/// Turns of 0.2 rad within 10 s, without a field.
+std::vector<FieldTurn> turns_of(const AuditedLog& log) {
   constexpr double kTurn_rad = 0.2, kLongest_s = 10;
   std::vector<FieldTurn> turns;
   const auto rates = log.all("rate_x");
   double begin_s = -INFINITY, last_s = -INFINITY;
   Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  Eigen::Vector3d last_rad_s = Eigen::Vector3d::Zero();
   for (const double time_s : rates.empty() ? std::vector<double>() : rates.front()->series.time_s) {
-    const Eigen::Vector3d angle_rad = vector_at(log, rates.front()->port, "rate", time_s) *
-                                      (base::kRadiansPerDegree * (time_s - std::exchange(last_s, time_s)));
+    const Eigen::Vector3d rate_rad_s =
+        base::kRadiansPerDegree * vector_at(log, rates.front()->port, "rate", time_s);
+    const Eigen::Vector3d angle_rad =
+        (std::exchange(last_rad_s, rate_rad_s) + rate_rad_s) / 2 * (time_s - std::exchange(last_s, time_s));
     if (angle_rad.allFinite()) turned *= Eigen::AngleAxisd(angle_rad.norm(), angle_rad.normalized()).matrix();
     const bool is_turn = Eigen::AngleAxisd(turned).angle() > kTurn_rad && time_s - begin_s < kLongest_s;
     if (!is_turn && time_s - begin_s < kLongest_s) continue;
-    const Eigen::Vector3d after = vector_at(log, port, "field", time_s);
-    if (is_turn && (before + after).allFinite()) turns.push_back({before, after, turned.transpose()});
-    before = after;
+    if (is_turn) turns.push_back({begin_s, time_s, turned.transpose()});
     begin_s = time_s;
     turned.setIdentity();
   }
+  return turns;
+}
+
+/// The same turns with the field of lag_s later; without those that have none.
+std::vector<FieldTurn> with_fields(std::vector<FieldTurn> turns, const AuditedLog& log, const std::string& port,
+                                   double lag_s = 0) {
+  for (FieldTurn& turn : turns) {
+    turn.before = vector_at(log, port, "field", turn.begin_s + lag_s);
+    turn.after = vector_at(log, port, "field", turn.end_s + lag_s);
+  }
+  std::erase_if(turns, [](const FieldTurn& turn) { return !(turn.before + turn.after).allFinite(); });
   return turns;
 }
 
@@ -202,7 +215,8 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
       errors.reference_std_rad = std::max(errors.reference_std_rad, std->std);
     for (const TiltedField& field : tilted_fields(log.halves.at(half).samples, 0)) {
       const double time_s = base::seconds(field.utc_ns - log.begin_utc_ns);
-      const auto stated_deg = value_at(heading.series, time_s, kMostApart_s);
+      const double late_s = heading.port == log.compass ? log.compass_lag_s : 0;
+      const auto stated_deg = value_at(heading.series, time_s + late_s, kMostApart_s);
       if (!stated_deg) continue;
       const double reference_rad = field.heading_rad(*halves.at(1 - half)) + declination_rad;
       const double error_rad = base::wrapped(*stated_deg * base::kRadiansPerDegree - reference_rad);
@@ -222,9 +236,8 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
 }
 
 std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& port) {
-  constexpr std::size_t kFewest = 15;
-  const std::vector<FieldTurn> turns = field_turns(log, port);
-  if (turns.size() < kFewest) return std::nullopt;
+  const std::vector<FieldTurn> turns = with_fields(turns_of(log), log, port);
+  if (turns.size() < kFewestTurns) return std::nullopt;
   FieldAxes found{0, INFINITY, INFINITY, {}};
   for (const FieldTurn& one : turns)
     found.changed_uT += (one.after - one.before).norm() / static_cast<double>(turns.size());
@@ -243,6 +256,20 @@ std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& po
     }
   } while (std::next_permutation(order.begin(), order.end()));
   return found;
+}
+
+double field_lag_s(const AuditedLog& log, const std::string& port) {
+  constexpr double kStep_s = 0.05, kMost_s = 2, kSharper = 0.7;
+  const std::vector<FieldTurn> turns = turns_of(log);
+  const auto left_uT = [&](double lag_s) {
+    const auto at_lag = with_fields(turns, log, port, lag_s);
+    return at_lag.size() < kFewestTurns ? INFINITY : unexplained_uT(at_lag, Eigen::Matrix3d::Identity());
+  };
+  double best_s = 0, least_uT = kSharper * left_uT(0);
+  for (double lag_s = kStep_s; lag_s < kMost_s; lag_s += kStep_s) {
+    if (const double uT = left_uT(lag_s); uT < least_uT) best_s = lag_s, least_uT = uT;
+  }
+  return best_s;
 }
 
 FieldComparison compare_fields(const AuditedLog& log, const std::string& first, const std::string& second) {

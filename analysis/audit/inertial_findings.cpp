@@ -16,6 +16,7 @@ using calib::Calibrator;
 
 constexpr double kLeastBias_deg_s = 0.02, kAlone_s = 60;  ///< smallest bias; time of its cost
 constexpr double kLeastScale = 0.02, kTurn_deg = 90, kHeldOutMargin = 0.1;
+constexpr double kAxesStd = 0.002;                  ///< of a scale: an axis may be askew by 3.6 degrees
 constexpr std::size_t kThirds = 3;                  ///< parts of a rest
 constexpr double kSome_m_s2 = 30, kMuch_m_s2 = 60;  ///< vibration at which ArduPilot warns, and at which it fails
 
@@ -70,7 +71,7 @@ void append_turned(std::vector<Finding>& findings, const AuditedLog& log, Calibr
   of_bias.sentence =
       fmt::format("The gyro shows {:.4f} deg/s when the vehicle does not turn.{}", rest_deg_s, held_out);
   judge_bias(of_bias, bounded(rest_deg_s, bias->std * kDegreesPerRadian), is_confirmed, true, log);
-  of_scale.put(bounded(scale->value, scale->std), "");
+  of_scale.put(bounded(scale->value, std::hypot(scale->std, kAxesStd)), "");
   of_scale.sentence = fmt::format("True rate over measured rate is {:.4f}.{}", scale->value, held_out);
   if (is_found(of_scale, 1 - kLeastScale, 1 + kLeastScale, is_confirmed)) {
     of_scale.todo = "Multiply the rate by this number.";
@@ -200,10 +201,11 @@ void append_forces(std::vector<Finding>& findings, const AuditedLog& log) {
   }
 }
 
-/// A delay that a calibrator finds, after `of_compass` is taken off; returned. Each half of the log is judged for
-/// itself, too: what they differ by is part of the interval.
+/// A delay that a calibrator finds beside `known_s`, which its readings had no part of, and with `of_compass`,
+/// which its stamps have; what it finds is returned. Each half of the log is judged for itself, too: what they
+/// differ by is part of the interval.
 Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Calibrator calibrator, Finding finding,
-                     const char* words, double least_s, const Bounded& of_compass = {}) {
+                     const char* words, double least_s, double known_s, const Bounded& of_compass = {}) {
   constexpr double kRate_deg_s = 20;
   constexpr double kLinear = 0.15;  ///< of the value: the calibrators' models are linear in the delay
   const auto* const report = log.whole.report.find(calibrator);
@@ -222,7 +224,7 @@ Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Cali
     are_both = are_both && other != nullptr && (of_half->judgement.accepted || 1.96 * other->std < least_s);
     if (other != nullptr && are_both) half_s = std::max(half_s, std::abs(other->value - value->value));
   }
-  const double delay_s = value->value + of_compass.value;
+  const double delay_s = value->value + of_compass.value + known_s;
   half_s = std::hypot(half_s, of_compass.high - of_compass.value);
   finding.put({delay_s, delay_s - half_s, delay_s + half_s}, "s");
   finding.sentence = fmt::format("The {} by {:.0f} ms{}.", words, 1000 * delay_s,
@@ -232,13 +234,16 @@ Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Cali
                              " No receiver is early: the heading is late, or a stated latency wrong.");
   } else if (finding.is_beyond(-least_s, least_s)) {
     finding.certainty = are_both ? Certainty::found : Certainty::likely;
-    finding.todo = "Give the later sensor its latency in the configuration of the estimator.";
+    finding.todo =
+        "Give the later sensor its latency in the configuration of the estimator (navcal calibrate and navcald, "
+        "of a "
+        "compass: calibration.compass_delay_ms).";
     finding.put_heading(std::abs(delay_s) * kRate_deg_s, log.speed_m_s());
     finding.position_m = std::abs(delay_s) * log.speed_m_s();  // the way in that time, however long the log is
     finding.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg/s.", kRate_deg_s);
   }
   findings.push_back(std::move(finding));
-  return {delay_s, delay_s - half_s, delay_s + half_s};
+  return {delay_s - known_s, delay_s - known_s - half_s, delay_s - known_s + half_s};
 }
 
 }  // namespace
@@ -249,13 +254,13 @@ std::vector<Finding> inertial_findings(const AuditedLog& log) {
   append_turned(findings, log, Calibrator::gyro, "rate_z");
   append_turned(findings, log, Calibrator::gyro_b, "yaw_rate_b");
   append_forces(findings, log);
-  const Bounded of_compass =
-      append_delay(findings, log, Calibrator::compass_delay,
-                   {"delay.compass", "Delay of the compass", log.compass}, "compass is later than the gyro", 0.05);
+  const Bounded of_compass = append_delay(findings, log, Calibrator::compass_delay,
+                                          {"delay.compass", "Delay of the compass", log.compass},
+                                          "compass is later than the gyro", 0.05, log.compass_lag_s);
   const auto fixes = log.all("north");
   append_delay(findings, log, Calibrator::course_delay,
                {"delay.course", "Delay of the receiver", fixes.empty() ? log.compass : fixes.front()->port},
-               "course over ground is later than the heading", 0.3, of_compass);
+               "course over ground is later than the heading", 0.3, 0, of_compass);
   return findings;
 }
 

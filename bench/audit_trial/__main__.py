@@ -15,6 +15,7 @@ the answer to the case is then wrong, too. An interval *holds* if it contains th
 A fault is not planted where the log states nothing of it: a fault of the depth in a log without depth, for example.
 """
 import argparse
+import bisect
 import collections
 import concurrent.futures
 import hashlib
@@ -61,6 +62,13 @@ def planned(seed, number, count):
     return case
 
 
+def held(log):
+    """Mean age of a field at the first inertial reading after it: a telemetry log states both with the time of the latter."""
+    times = sorted(sample.time_s for sample in log["imu"])
+    ages = [times[i] - sample.time_s for sample in log["compass"] if (i := bisect.bisect_left(times, sample.time_s)) < len(times)]
+    return sum(ages) / len(ages)
+
+
 def make(navcal, repository, folder, case, seed):
     """Writes the log and the true values of a case."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -95,6 +103,8 @@ def make(navcal, repository, folder, case, seed):
         value = kind.plant(log, fault["size"], dice, truth) if kind.plant else kind.value(fault["size"], made[kind.name], truth)
         for name in kind.finds:
             values[name] = value
+    if case["form"] == "tlog" and "delay.compass" in values:
+        values["delay.compass"] += held(log)
     if not is_as_simulated:
         write(file, log)
     for each in ("truth.csv", "config.toml", "mission.toml", "effects.toml"):

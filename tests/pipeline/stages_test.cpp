@@ -91,6 +91,17 @@ TEST_F(StagesTest, TheFirstFixMakesHeadingsTrue) {
   EXPECT_EQ(told_.fields.size(), 1U) << "it did not move";
 }
 
+TEST_F(StagesTest, AKnownDelayOfTheCompassIsTakenOffItsTimes) {
+  auto settings = two_compasses_and_a_receiver();
+  settings.calibration.compass_delay_s = 0.4;
+  Stages stages(settings);
+  heading(stages, first_compass, 10);
+  const instruments::Stamp& stamp = told_.newest_of.begin()->second.stamp;
+  EXPECT_EQ(stamp.validity_ns, 9'600'000'000);
+  EXPECT_EQ(stamp.validity_utc_ns, kJune2026_s * base::kSecond_ns + 9'600'000'000);
+  EXPECT_EQ(stamp.arrival_ns, 10'000'000'000);
+}
+
 TEST_F(StagesTest, AHeadingThatIsTrueAlreadyStays) {
   Stages stages(two_compasses_and_a_receiver());
   instruments::CompassSample gyrocompass;

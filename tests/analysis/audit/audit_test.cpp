@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/audit/audit.h"
+#include "analysis/audit/heading_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -333,6 +334,20 @@ TEST(Audit, ADelayThatNoCalibrationWouldUseIsStillOne) {
   EXPECT_EQ(find(inertial_findings(log), "delay.compass")->certainty, Certainty::cannot_say);
 }
 
+TEST(Audit, WhatTheCalibratorsWereSpareOfADelayIsAdded) {
+  AuditedLog log;
+  log.compass_lag_s = 0.6;
+  log.whole.report.calibrators = {delay_of(calib::Calibrator::compass_delay, 0.01, 0.002, true),
+                                  delay_of(calib::Calibrator::course_delay, 0.05, 0.05, true)};
+  for (AuditedCalibration& half : log.halves) half = log.whole;
+  const auto findings = inertial_findings(log);
+  const Finding* const late = find(findings, "delay.compass");
+  EXPECT_EQ(late->certainty, Certainty::found);
+  EXPECT_NEAR(*late->value, 0.61, 1e-9);
+  EXPECT_NEAR(*late->high - *late->value, 1.96 * 0.002 + 0.15 * 0.01, 1e-9);  // linear in what is left only
+  EXPECT_NEAR(*find(findings, "delay.course")->value, 0.06, 1e-9);            // its heading was no longer late
+}
+
 TEST(Audit, ABiasThatShowsAtRestIsSaidOnce) {
   AuditedLog log;
   log.channels.push_back(channel("imu", "rate_z", normal(4000, 0.3, 0.05), 0.05));
@@ -476,6 +491,24 @@ TEST(Audit, AxesOfTheFieldThatTheRatesContradict) {
   EXPECT_EQ(find(compass_findings(still), "compass.axes")->certainty, Certainty::cannot_say);
 }
 
+TEST(Audit, ALateFieldIsAsLateAsItIs) {
+  const auto same = [](const auto& field) { return field; };
+  for (const double lag_s : {0.0, 0.1, 0.3, 0.6, 1.2, 1.9}) {
+    AuditedLog log = turning(same);
+    for (RecordedChannel& one : log.channels) {
+      if (one.port != "compass") continue;
+      for (double& time_s : one.series.time_s) time_s += lag_s;
+    }
+    EXPECT_NEAR(field_lag_s(log, "compass"), lag_s, 0.06);
+  }
+  AuditedLog still = turning(same);
+  for (RecordedChannel& one : still.channels) one.series.values.assign(3000, 0.01);
+  EXPECT_EQ(field_lag_s(still, "compass"), 0);
+  EXPECT_EQ(field_lag_s(AuditedLog{}, "compass"), 0);
+  EXPECT_EQ(field_lag_s(turning([](const auto& f) { return Eigen::Vector3d(f.y(), f.x(), f.z()); }), "compass"),
+            0);
+}
+
 /// A field on all headings of a level vehicle, with what the magnetometer's calibrator says of it.
 AuditedLog with_magnetometer(bool is_accepted, double iron_uT, double worst_std_rad) {
   AuditedLog log;
@@ -605,6 +638,18 @@ TEST(Audit, WhatFollowsFromATiltByDisturbedForcesIsNotSaid) {
     vibration.certainty = calm;
     EXPECT_EQ(certainty_of("compass.step"), Certainty::found);
   }
+}
+
+TEST(Audit, TheDelayOfAFieldNeedsNoTilt) {
+  AuditedLog log = turning([](const auto& field) { return field; });
+  log.whole.report.calibrators = {delay_of(calib::Calibrator::compass_delay, 0.2, 0.002, true),
+                                  delay_of(calib::Calibrator::course_delay, 0.5, 0.01, true)};
+  const Finding vibration{"force.vibration", "Vibration", "imu", Certainty::found};
+  const auto findings = audited(log, {vibration}).findings;
+  EXPECT_LE(find(findings, "delay.compass")->certainty, Certainty::likely);
+  EXPECT_EQ(find(findings, "delay.course")->certainty, Certainty::cannot_say);
+  std::erase_if(log.channels, [](const RecordedChannel& one) { return one.port == "compass"; });
+  EXPECT_EQ(find(audited(log, {vibration}).findings, "delay.compass")->certainty, Certainty::cannot_say);
 }
 
 TEST(Audit, TwoCompassesThatPointApart) {
