@@ -200,7 +200,7 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options, bool ha
 
 void find_gap(const GapCommandOptions& options) {
   with_exit_statuses([&] {
-    (void)quantities_of(options.without);
+    (void)gap::quantities_of(options.without);
     // Only exports want it of a saved diagnosis.
     const auto layout =
         options.saved.empty() || !options.exports.wanted.empty() ? layout_of(options) : std::nullopt;

@@ -2,29 +2,16 @@
 #include "cli/gap_request.h"
 
 #include <cstdlib>
-#include <stdexcept>
 #include <variant>
 
-#include "base/failure.h"
 #include "cli/live/option_kinds.h"
 #include "config/load.h"
 #include "emulation/chosen_vehicle.h"
 #include "gap/data/silence.h"
 #include "gap/thresholds.h"
 #include "sim/effects/choice.h"
-#include "sim/effects/effect_table.h"
 
 namespace navcal::cli {
-namespace {
-
-void expect_effects(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (!sim::make_effect(name))
-      throw base::Failure(base::Exit::usage, "--exclude " + name + ": " + sim::unknown_effect(name));
-  }
-}
-
-}  // namespace
 
 std::filesystem::path usual_cache() {
   const auto folder = [](const char* variable) {
@@ -36,17 +23,6 @@ std::filesystem::path usual_cache() {
   return {};
 }
 
-std::vector<gap::Quantity> quantities_of(const std::vector<std::string>& instruments) {
-  std::vector<gap::Quantity> all;
-  try {
-    for (const std::string& name : instruments)
-      for (const gap::Quantity one : gap::quantities_named(name)) all.push_back(one);
-  } catch (const std::invalid_argument& error) {
-    throw base::Failure(base::Exit::usage, std::string("--without: ") + error.what());
-  }
-  return all;
-}
-
 std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
   return emulation::layout_in(options.source.vehicle);
 }
@@ -56,13 +32,13 @@ gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout)
   if (!options.source.vehicle.empty() && !is_of_layout) {
     request.vehicle = std::get<config::VehicleSettings>(emulation::load_chosen_vehicle(options.source.vehicle));
   }
-  if (!is_of_layout) expect_effects(options.source.excluded);
+  if (!is_of_layout) sim::expect_effects(options.source.excluded);
   request.missions = {options.source.missions.begin(), options.source.missions.end()};
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
   if (!options.source.config.empty()) request.settings = config::load(options.source.config);
   request.excluded = options.source.excluded;
   request.window = options.window();
-  request.without = quantities_of(options.without);
+  request.without = gap::quantities_of(options.without);
   request.field_uT = options.where.field_uT();
   request.cache = options.cache.empty() ? usual_cache() : options.cache;
   request.bank_missions = options.bank_missions;

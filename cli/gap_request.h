@@ -37,7 +37,4 @@ void add_gap_request(CLI::App& command, GapRequestOptions& options);
 /// The request without its vehicle where that is a layout. Throws config::Error, base::Failure.
 [[nodiscard]] gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout = false);
 
-/// What instruments of --without measure. Throws base::Failure (usage) for a name that is none.
-[[nodiscard]] std::vector<gap::Quantity> quantities_of(const std::vector<std::string>& instruments);
-
 }  // namespace navcal::cli

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -227,7 +228,13 @@ std::vector<Quantity> quantities_named(std::string_view name) {
     names.push_back(instrument);
   }
   throw std::invalid_argument(
-      fmt::format("there is no instrument {}; there are {}", name, fmt::join(names, ", ")));
+      fmt::format("--without: there is no instrument {}; there are {}", name, fmt::join(names, ", ")));
+}
+
+std::vector<Quantity> quantities_of(std::span<const std::string> names) {
+  std::vector<Quantity> all;
+  for (const std::string& name : names) std::ranges::copy(quantities_named(name), std::back_inserter(all));
+  return all;
 }
 
 void leave_out(std::span<const Quantity> quantities, Mission& mission) {

@@ -55,6 +55,7 @@ void find_silences(Mission& mission);
 /// Quantities that an instrument gives, by the names of `navcal gap --without`: compass, field, tilt, card, gyros,
 /// accelerometers, depth, gps, motor. Throws std::invalid_argument, which lists them.
 [[nodiscard]] std::vector<Quantity> quantities_named(std::string_view name);
+[[nodiscard]] std::vector<Quantity> quantities_of(std::span<const std::string> names);
 
 /// Makes a mission one that lacks these quantities, then as find_silences(). A field of the Earth that follows
 /// from the fixes is fitted to the compass instead.

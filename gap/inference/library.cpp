@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include "gap/thresholds.h"
 #include "sim/effects/choice.h"
@@ -39,9 +38,7 @@ constexpr std::array<std::string_view, 4> kBiasNames{"bias_ax", "bias_az", "bias
 }  // namespace
 
 Library::Library(std::span<const std::string> excluded) {
-  for (const std::string& name : excluded) {
-    if (sim::make_effect(name) == nullptr) throw std::invalid_argument(sim::unknown_effect(name));
-  }
+  sim::expect_effects(excluded);
   for (std::size_t i = 0; i < kBiasNames.size(); ++i) {
     unknowns_.push_back({kNuisance, i, kBiasNames[i], kTypicalTurnOnBias_rad_s, 1, 1, -1, 1});
   }

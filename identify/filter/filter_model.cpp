@@ -87,14 +87,45 @@ StepDerivatives FilterModel::derivatives(const FilterState& state, const FilterS
   return all;
 }
 
-FilterMatrix transition_of(const StepDerivatives& derivatives, double tilt_lag_s, double step_s, double tau_s) {
-  FilterMatrix all = FilterMatrix::Zero();
-  all.topLeftCorner<3, 3>().setIdentity();
-  all.block<kStates, 9>(0, kEuler) = derivatives;
-  if (tilt_lag_s > 0) all.block<2, 2>(kTilt, kTilt).diagonal().setConstant(std::exp(-step_s / tilt_lag_s));
-  all.block<kStates, 6>(0, kStates) = step_s / 2 * derivatives.rightCols<6>();
-  all.block<6, 6>(kVelocity, kStates).diagonal().array() += step_s / 2;
-  all.bottomRightCorner<6, 6>().diagonal().setConstant(std::exp(-step_s / tau_s));
+Transition::Transition(const StepDerivatives& derivatives, double tilt_lag_s, double step_s, double tau_s)
+    : derivatives_(derivatives), half_step_s_(step_s / 2),
+      tilt_left_(tilt_lag_s > 0 ? std::exp(-step_s / tilt_lag_s) : 0),
+      disturbance_left_(std::exp(-step_s / tau_s)) {}
+
+template <int columns>
+Eigen::Matrix<double, kStates, columns> Transition::motion(
+    const Eigen::Matrix<double, kFilterStates, columns>& x) const {
+  const StepDerivatives& by = derivatives_;
+  Eigen::Matrix<double, kStates, columns> end;
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const sim::Vector6 kick = half_step_s_ * x.col(j).template tail<6>();
+    const sim::Vector6 velocity = x.col(j).template segment<6>(kVelocity) + kick;
+    // One expression, so that its sums stay in registers.
+    end.col(j) = x(kEuler, j) * by.col(0) + x(kEuler + 1, j) * by.col(1) + x(kEuler + 2, j) * by.col(2) +
+                 velocity[0] * by.col(3) + velocity[1] * by.col(4) + velocity[2] * by.col(5) +
+                 velocity[3] * by.col(6) + velocity[4] * by.col(7) + velocity[5] * by.col(8);
+    end.col(j).template head<3>() += x.col(j).template head<3>();
+    end.col(j).template segment<6>(kVelocity) += kick;
+    end.col(j).template segment<2>(kTilt) += tilt_left_ * x.col(j).template segment<2>(kTilt);
+  }
+  return end;
+}
+
+FilterState Transition::operator*(const FilterState& x) const {
+  FilterState end;
+  end << motion<1>(x), disturbance_left_ * x.tail<6>();
+  return end;
+}
+
+FilterMatrix Transition::on_both_sides_of(const FilterMatrix& covariance) const {
+  const auto across = motion<kFilterStates>(covariance);
+  const Eigen::Matrix<double, kStates, kStates> moved =
+      motion<kStates>(Eigen::Matrix<double, kFilterStates, kStates>(across.transpose()));
+  FilterMatrix all;
+  all.topLeftCorner<kStates, kStates>() = (moved + moved.transpose()) / 2;
+  all.topRightCorner<kStates, 6>() = disturbance_left_ * across.rightCols<6>();
+  all.bottomLeftCorner<6, kStates>() = all.topRightCorner<kStates, 6>().transpose();
+  all.bottomRightCorner<6, 6>() = disturbance_left_ * disturbance_left_ * covariance.bottomRightCorner<6, 6>();
   return all;
 }
 

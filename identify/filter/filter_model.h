@@ -21,7 +21,7 @@ using FilterState = Eigen::Matrix<double, kFilterStates, 1>;
 using FilterMatrix = Eigen::Matrix<double, kFilterStates, kFilterStates>;
 
 /// Derivatives of a step's end by the Euler angles and velocities at its begin. The rest of the transition matrix
-/// follows from them: transition_of().
+/// follows from them: Transition.
 using StepDerivatives = Eigen::Matrix<double, kStates, 9>;
 
 /// A vehicle under its recorded actuators, disturbed by accelerations, and its instruments.
@@ -64,8 +64,26 @@ class FilterModel {
   double tilt_lag_s_;
 };
 
-[[nodiscard]] FilterMatrix transition_of(const StepDerivatives& derivatives, double tilt_lag_s, double step_s,
-                                         double tau_s);
+/// Transition matrix F of a step by its blocks: a third of its elements are not zero.
+class Transition {
+ public:
+  /// `derivatives` must outlive it.
+  Transition(const StepDerivatives& derivatives, double tilt_lag_s, double step_s, double tau_s);
+
+  /// F x.
+  [[nodiscard]] FilterState operator*(const FilterState& x) const;
+  /// F C F^T of a covariance C.
+  [[nodiscard]] FilterMatrix on_both_sides_of(const FilterMatrix& covariance) const;
+
+ private:
+  /// The rows of F x but for the disturbance.
+  template <int columns>
+  [[nodiscard]] Eigen::Matrix<double, kStates, columns> motion(
+      const Eigen::Matrix<double, kFilterStates, columns>& x) const;
+
+  const StepDerivatives& derivatives_;
+  double half_step_s_, tilt_left_, disturbance_left_;
+};
 
 /// Sizes of what disturbs a vehicle, axis by axis (surge, sway, heave, roll, pitch, yaw), and of its instruments'
 /// noise.

@@ -45,9 +45,8 @@ FilterState growth_of(const FilterNoises& noises, double step_s) {
 }
 
 /// Covariance a step later.
-FilterMatrix grown(const FilterMatrix& covariance, const FilterMatrix& transition, const FilterState& growth) {
-  const FilterMatrix moved = transition * covariance * transition.transpose();
-  FilterMatrix all = (moved + moved.transpose()) / 2;
+FilterMatrix grown(const FilterMatrix& covariance, const Transition& transition, const FilterState& growth) {
+  FilterMatrix all = transition.on_both_sides_of(covariance);
   all.diagonal() += growth;
   return all;
 }
@@ -58,7 +57,10 @@ void update(std::span<FilterPass::Reading> readings, std::span<const double> var
   correction.setZero();
   for (std::size_t i = 0; i < readings.size(); ++i) {
     FilterPass::Reading& reading = readings[i];
-    const FilterState across = covariance * reading.sensitivity;
+    FilterState across = FilterState::Zero();
+    for (Eigen::Index s = 0; s < kFilterStates; ++s) {  // most readings depend on few states
+      if (reading.sensitivity[s] != 0) across += reading.sensitivity[s] * covariance.col(s);
+    }
     reading.variance = reading.sensitivity.dot(across) + variances[i];
     reading.gain = across / reading.variance;
     const double innovation = reading.innovation - reading.sensitivity.dot(correction);
@@ -247,8 +249,7 @@ std::vector<double> FilteredReplay::run(const Eigen::VectorXd& values, FilterPas
       const auto moved = model.moved_over(step.time_s - step.length_s, step.length_s);
       const FilterState end = model.after(state, moved, step.length_s, noises_.tau_s);
       pass.steps[k].derivatives = model.derivatives(state, end, moved, step.length_s, noises_.tau_s);
-      const FilterMatrix transition =
-          transition_of(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises_.tau_s);
+      const Transition transition(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises_.tau_s);
       covariance = grown(covariance, transition, growth_of(noises_, step.length_s));
       state = end;
     }
@@ -389,8 +390,7 @@ void FilteredReplay::filter_again(const FilterPass& pass, const FilterNoises& no
       apart.setZero();
       covariance = first_covariance(noises);
     } else {
-      const FilterMatrix transition =
-          transition_of(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises.tau_s);
+      const Transition transition(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises.tau_s);
       apart = transition * apart;
       apart.tail<6>() += (std::exp(-step.length_s / noises.tau_s) - std::exp(-step.length_s / pass.tau_s)) *
                          pass.steps[k].begin.tail<6>();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "config/suggestion.h"
 #include "sim/effects/effect_table.h"
@@ -75,6 +76,13 @@ std::string unknown_effect(std::string_view name, bool of_layout) {
     known.erase(std::unique(known.begin(), known.end()), known.end());
   }
   return "there is no such effect" + config::suggestion_or_all(name, known);
+}
+
+void expect_effects(std::span<const std::string> excluded) {
+  for (const std::string& name : excluded) {
+    if (!make_effect(name))
+      throw std::invalid_argument(fmt::format("--exclude {}: {}", name, unknown_effect(name)));
+  }
 }
 
 std::string effects_text() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ namespace navcal::sim {
 /// "there is no effect magnetfield; did you mean ...? Known are: ...".
 /// With a layout the effects on it are known too.
 [[nodiscard]] std::string unknown_effect(std::string_view name, bool of_layout = false);
+
+/// Throws std::invalid_argument for a name of --exclude that is no effect.
+void expect_effects(std::span<const std::string> excluded);
 
 /// The table of all effects as people read it, in the form that docs/simulator.md takes.
 [[nodiscard]] std::string effects_text();

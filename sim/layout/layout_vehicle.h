@@ -23,7 +23,9 @@ class ThrusterForce {
  public:
   ThrusterForce(const config::LayoutThruster& thruster, double density_kg_m3)
       : thruster_(thruster), density_kg_m3_(density_kg_m3),
-        of_thrust_(force_at(vector_of(thruster.place_m), vector_of(thruster.direction).normalized())) {}
+        of_thrust_(force_at(vector_of(thruster.place_m), vector_of(thruster.direction).normalized())) {
+    of_torque_ << Eigen::Vector3d::Zero(), of_thrust_.head<3>();
+  }
 
   /// `position`: the command after lag and dead band, in the command's unit; `factor`: of the thrust, not the
   /// reaction.
@@ -31,7 +33,7 @@ class ThrusterForce {
     const autopilot::Thrust thrust =
         autopilot::thrust_at(thruster_, density_kg_m3_, position, of_thrust_.dot(velocity));
     force += factor * thrust.force_N * of_thrust_;
-    force.tail<3>() += thrust.torque_Nm * of_thrust_.head<3>();
+    force += thrust.torque_Nm * of_torque_;  // whole: what reads a vector behind its half waits for that
   }
 
  private:
@@ -39,6 +41,7 @@ class ThrusterForce {
   double density_kg_m3_;
   Vector6 of_thrust_;  ///< force about the origin of a unit thrust; the speed of the place along e is its product
                        ///< with the velocity
+  Vector6 of_torque_;  ///< of a unit torque
 };
 
 /// A fin or wing at r with unit normal n and unit chord c meets V = v + omega x r:
