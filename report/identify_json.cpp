@@ -17,7 +17,8 @@ IdentifyJson before_after_json(const identify::BeforeAfter& rms) {
 std::string identify_json(const identify::Identification& found) {
   IdentifyJson parameters = IdentifyJson::object(), directions = IdentifyJson::array(),
                manoeuvres = IdentifyJson::array(), channels = IdentifyJson::object(),
-               nuisances = IdentifyJson::array(), disturbances = IdentifyJson::object();
+               nuisances = IdentifyJson::array(), disturbances = IdentifyJson::object(),
+               predictions = IdentifyJson::array();
   for (const auto& one : found.parameters) {
     parameters[one.parameter.name] = {{"value", one.value},
                                       {"std", one.std},
@@ -53,10 +54,20 @@ std::string identify_json(const identify::Identification& found) {
                                           {"unit", of.unit},
                                           {"share", of.share ? IdentifyJson(*of.share) : IdentifyJson()}};
   }
+  for (const auto& one : found.predictions) {
+    predictions.push_back({{"quantity", one.quantity},
+                           {"unit", one.unit},
+                           {"after_s", one.after_s},
+                           {"starts", one.starts},
+                           {"before", one.before},
+                           {"after", one.after},
+                           {"linear", one.linear ? IdentifyJson(*one.linear) : IdentifyJson()}});
+  }
   const IdentifyJson json{{"parameters", parameters},
                           {"directions", directions},
                           {"held_out", found.held_out ? before_after_json(*found.held_out) : IdentifyJson()},
                           {"fitted", before_after_json(found.fitted)},
+                          {"predictions", predictions},
                           {"manoeuvres", manoeuvres},
                           {"channels", channels},
                           {"nuisances", nuisances},

@@ -39,8 +39,7 @@ Figure identified_figure(const identify::Identification& found) {
   plot.points(SvgPlot::Ink::after, "", points);
   return {"Fitted numbers", plot.svg(),
           "From above in the order of the table. A stroke as long as the two lines are apart: the recordings do "
-          "not tell "
-          "the number."};
+          "not tell the number."};
 }
 
 }  // namespace
@@ -56,6 +55,8 @@ std::string identify_page(const identify::Identification& found) {
   if (found.held_out)
     page.fact(found.held_out->after < found.held_out->before ? "good" : "bad", "held out",
               rms_sentence("held-out recordings", *found.held_out));
+  for (const auto& one : found.predictions)
+    page.fact(one.after < one.before ? "good" : "bad", "held out", prediction_phrase(one));
   for (const auto& warning : found.warnings) page.fact("bad", "warning", warning);
   page.section("Numbers");
   std::vector<std::vector<std::string>> rows;

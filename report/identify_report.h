@@ -16,6 +16,7 @@ namespace navcal::report {
 [[nodiscard]] std::vector<std::string> identify_row(const identify::IdentifiedParameter& one,
                                                     std::string_view between);
 [[nodiscard]] std::string rms_sentence(std::string_view what, const identify::BeforeAfter& rms);
+[[nodiscard]] std::string prediction_phrase(const identify::PredictionFit& of);
 /// "0.12 m/s2 in sway, 30 % of what the actuators give"
 [[nodiscard]] std::string disturbance_phrase(const identify::DisturbanceFit& of);
 [[nodiscard]] std::string manoeuvre_sentence(const identify::ManoeuvreAdvice& advice);

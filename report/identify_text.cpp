@@ -20,6 +20,14 @@ std::string rms_sentence(std::string_view what, const identify::BeforeAfter& rms
                      what, rms.before, rms.after);
 }
 
+std::string prediction_phrase(const identify::PredictionFit& of) {
+  return fmt::format(
+      "predicted {:.0f} s ahead, from {} starts: {} off by {:.3g} {} with the numbers of the file, {:.3g} with "
+      "the fitted ones{}",
+      of.after_s, of.starts, of.quantity, of.before, of.unit, of.after,
+      of.linear ? fmt::format(", {:.3g} by a linear regression", *of.linear) : "");
+}
+
 std::string disturbance_phrase(const identify::DisturbanceFit& of) {
   return fmt::format("{:.2g} {} in {}{}", of.coloured, of.unit, of.axis,
                      of.share ? fmt::format(", {:.0f} % of what the actuators give", 100 * *of.share) : "");
@@ -38,6 +46,7 @@ std::string identify_text(const identify::Identification& found) {
   for (const std::string& line : table_lines(rows, rows.front().size())) out += line;
   out += '\n' + rms_sentence("these recordings", found.fitted) + '\n';
   if (found.held_out) out += rms_sentence("held-out recordings", *found.held_out) + '\n';
+  for (const auto& one : found.predictions) out += "  " + prediction_phrase(one) + '\n';
   out += fmt::format("\nunknown forces that last for {:.0f} s, over mass:\n", found.disturbance_tau_s);
   for (const auto& of : found.disturbances) out += "  " + disturbance_phrase(of) + '\n';
   if (!found.directions.empty()) out += "\nwhat the recordings do not tell:\n";

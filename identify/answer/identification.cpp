@@ -9,19 +9,21 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/angles.h"
 #include "identify/answer/prediction.h"
 #include "identify/conventions/conventions.h"
 
 namespace navcal::identify {
 namespace {
 
-constexpr double kFarFromPrior = 4;  ///< standard deviations of the prior
-constexpr double kPoorFit = 3;       ///< residuals over noise
-constexpr double kLate = 0.06;       ///< s
-constexpr double kApart_sigma = 3;   ///< of two starts
-constexpr double kNoBetter = 0.999;  ///< held-out residuals after over before
-constexpr double kWorse = 1.01;      ///< likewise: the fit has made it worse
-constexpr double kFarther = 1.5;     ///< errors of held-out predictions after over before
+constexpr double kFarFromPrior = 4;       ///< standard deviations of the prior
+constexpr double kPoorFit = 3;            ///< residuals over noise
+constexpr double kLate = 0.06;            ///< s
+constexpr double kApart_sigma = 3;        ///< of two starts
+constexpr double kNoBetter = 0.999;       ///< held-out residuals after over before
+constexpr double kWorse = 1.01;           ///< likewise: the fit has made it worse
+constexpr std::size_t kFewestStarts = 3;  ///< of a root mean square
+constexpr double kFarther = 1.5;          ///< errors of held-out predictions after over before
 constexpr double kFewPerChannel = 20;
 /// Of readings, s. Filtered or interpolated ones say less than their number: what they call the vehicle's is then
 /// not what one reading a second says, and the thinner ones count.
@@ -141,10 +143,10 @@ void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate
                     answer.left_out));
   if (!bounds.empty()) answer.warnings.push_back("numbers at a bound: " + bounds);
   if (estimate.start_spread > kApart_sigma)
-    answer.warnings.push_back(fmt::format(
-        "two starts of the fit end up to {:.1f} stated errors apart; the likelier one is shown, and the "
-        "standard errors contain the difference",
-        estimate.start_spread));
+    answer.warnings.push_back(
+        fmt::format("two starts of the fit end up to {:.1f} stated errors apart; the likelier one is shown, and "
+                    "the standard errors contain the difference",
+                    estimate.start_spread));
   if (!poor.empty())
     answer.warnings.push_back(
         "the fitted vehicle does not explain the recordings: noise over the instruments' own: " + poor);
@@ -164,6 +166,28 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
       answer.worse = fmt::format("its predictions are off by {:.3g}, by {:.3g} with the numbers of the file ({})",
                                  of.layout_error, before.layout_error,
                                  of.by_velocity ? "velocity after 1 s, m/s" : "position after 10 s, m");
+    const auto add = [&](std::string_view quantity, std::string_view unit,
+                         PredictionErrors::Row PredictionErrors::*row, std::size_t horizon, double scale = 1) {
+      const auto in = [&](const Prediction& all, Predictor by) {
+        const std::optional<double>& error = (all.errors.at(horizon).*row).at(static_cast<std::size_t>(by));
+        return error ? std::optional(scale * *error) : std::nullopt;
+      };
+      const auto fitted = in(of, Predictor::layout), file = in(before, Predictor::layout);
+      if (!fitted || !file || of.errors.at(horizon).starts < kFewestStarts) return;
+      const PredictionErrors& errors = of.errors.at(horizon);
+      answer.predictions.push_back(
+          {quantity, unit, errors.after_s, errors.starts, *file, *fitted, in(of, Predictor::linear)});
+      if (*fitted > kFarther * *file)
+        answer.warnings.push_back(fmt::format(
+            "held out, the {} after {:.0f} s is off by {:.3g} {}, by {:.3g} with the numbers of the file",
+            quantity, errors.after_s, *fitted, unit, *file));
+    };
+    add("velocity", "m/s", &PredictionErrors::velocity_m_s, 0);
+    for (const std::size_t horizon : {1, 2}) {
+      if (of.is_steered) break;  // they judge its controller
+      add("position", "m", &PredictionErrors::position_m, horizon);
+      add("heading", "deg", &PredictionErrors::heading_rad, horizon, base::kDegreesPerRadian);
+    }
     for (const auto& [is_worse, what] : {std::pair{of.worse_than_linear, "a linear regression"},
                                          std::pair{of.worse_than_hold, "holding the velocity"}})
       if (is_worse)

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/settings.h"
@@ -51,12 +52,22 @@ struct DisturbanceFit {
   std::optional<double> share;  ///< of `coloured` in the actuators' acceleration, root mean square
 };
 
+/// Root mean square error of open-loop predictions of the held-out recordings.
+struct PredictionFit {
+  std::string_view quantity, unit;  ///< "position", "m"
+  double after_s = 0;
+  std::size_t starts = 0;
+  double before = 0, after = 0;    ///< with the numbers of the file, and with the fitted ones
+  std::optional<double> linear{};  ///< of a linear regression on the recordings of the fit
+};
+
 struct Identification {
   std::vector<IdentifiedParameter> parameters;
   std::vector<Direction> directions;
   std::vector<ManoeuvreAdvice> manoeuvres;
   BeforeAfter fitted;
   std::optional<BeforeAfter> held_out;
+  std::vector<PredictionFit> predictions;  ///< none where a controller steers the vehicle, but of the velocity
   std::vector<ChannelFit> channels;
   std::vector<NuisanceFit> nuisances;  ///< that the recordings tell
   std::vector<DisturbanceFit> disturbances;

@@ -76,8 +76,7 @@ std::optional<Convention> twice(const RecordedMotion& motion, const Agreement& a
   if (std::abs(off) < kFar * sigma || std::abs(off + declination) > kNear * sigma) return std::nullopt;
   return Convention{"declination_twice", "heading", 0.95,
                     fmt::format("The track lies {:+.1f} degrees from the heading, with the declination of {:+.1f} "
-                                "degrees taken into account: "
-                                "the heading contains it already.",
+                                "degrees taken into account: the heading contains it already.",
                                 off * base::kDegreesPerRadian, declination * base::kDegreesPerRadian)};
 }
 

@@ -117,6 +117,27 @@ TEST(Identify, HeldOutRecordingsJudge) {
   const Identification found = identify(request, kSilent);
   ASSERT_TRUE(found.held_out.has_value());
   EXPECT_LT(found.held_out->after, found.held_out->before);
+  EXPECT_TRUE(found.predictions.empty()) << "no velocity is measured";
+}
+
+TEST(Identify, PredictionsOfHeldOutRecordingsAreComparedWithThoseOfTheFile) {
+  VehicleCase of = vehicle_case("rov");
+  const config::Layout truth = draw_vehicle(of, 1).layout;
+  of.prior.uncertainties.resize(1);
+  IdentifyRequest request;
+  request.prior = of.prior;
+  request.advise = false;
+  request.recordings = {draw_recording(of, truth, 20, 5)};
+  request.held_out = {draw_recording(of, truth, 30, 9)};
+  const Identification found = identify(request, kSilent);
+  ASSERT_FALSE(found.predictions.empty());
+  const PredictionFit& velocity = found.predictions.front();
+  EXPECT_EQ(velocity.quantity, "velocity");
+  EXPECT_EQ(velocity.after_s, 1);
+  EXPECT_GE(velocity.starts, 5U);
+  EXPECT_GT(velocity.after, 0);
+  EXPECT_LT(velocity.after, 1.5 * velocity.before);
+  EXPECT_TRUE(velocity.linear.has_value());
 }
 
 }  // namespace
