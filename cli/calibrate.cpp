@@ -106,12 +106,18 @@ void add_calibrate(CLI::App& app) {
   command->add_flag("--json", options->json, "one JSON object instead of text");
   add_valued(command, "--report", "FILE.html", options->report,
              "page to write, with pictures; needs no other file");
-  add_valued(
-      command, "--parameters", "FILE.param", options->parameters,
-      "parameters of ArduPilot (COMPASS_OFS_X ...) to write: its compass then corrects as this calibration. Of a "
-      "PX4, or as FILE.params, CAL_MAG0_XOFF ... in QGroundControl's format");
+  add_valued(command, "--parameters", "FILE.param", options->parameters,
+             "parameters of ArduPilot (COMPASS_OFS_X ...) to write: its compass then corrects as this "
+             "calibration. Of a PX4, or as FILE.params, CAL_MAG0_XOFF ... in QGroundControl's format");
   command->footer("Example: navcal calibrate --report dive.html dive.mcap");
-  command->callback([options] { calibrate(*options); });
+  command->callback([options] {
+    if (options->json && options->files.front() == "-")
+      options->files.erase(options->files.begin());  // as elsewhere
+    if (options->files.empty()) throw CLI::RequiredError("FILE");
+    if (options->json && options->files.front().ends_with(".json"))
+      throw CLI::ValidationError("--json: it takes no file here, and writes to standard output");
+    calibrate(*options);
+  });
 }
 
 }  // namespace navcal::cli

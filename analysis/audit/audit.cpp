@@ -126,6 +126,12 @@ void leave_out_consequences(std::vector<Finding>& findings, const AuditedLog& lo
       "The forces that tell the tilt are disturbed",
       [](const Finding& of) { return of.name.starts_with("force."); }, {},
       log.all("field_x").empty() ? "delay." : "delay.course");
+  // Of several steps of the field, one says why.
+  const auto is_again = [](const Finding& a, const Finding& b) {
+    return b.certainty == Certainty::cannot_say &&
+           std::tie(a.name, a.channel, a.sentence) == std::tie(b.name, b.channel, b.sentence);
+  };
+  findings.erase(std::unique(findings.begin(), findings.end(), is_again), findings.end());
 }
 
 /// One quantity in two ways. Where they agree, the first says it. Where not, one of them is wrong: what the first,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/audit/audit.h"
-#include "analysis/audit/heading_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include <random>
 
 #include "analysis/audit/bounded.h"
+#include "analysis/audit/heading_errors.h"
 #include "analysis/import/import_log.h"
 #include "protocols/checked_line.h"
 #include "tests/support/temporary_folder.h"
@@ -638,6 +638,19 @@ TEST(Audit, WhatFollowsFromATiltByDisturbedForcesIsNotSaid) {
     vibration.certainty = calm;
     EXPECT_EQ(certainty_of("compass.step"), Certainty::found);
   }
+}
+
+TEST(Audit, SeveralStepsHaveOneReasonNotToBeJudged) {
+  const Finding vibration{"force.vibration", "Vibration", "imu", Certainty::found};
+  Finding first{"compass.step", "Step", "compass", Certainty::found}, second = first, other = first;
+  first.sentence = "at 1 s";
+  second.sentence = "at 2 s";
+  other.channel = "compass2";
+  const auto steps_in = [](const std::vector<Finding>& findings) {
+    return std::ranges::count(findings, "compass.step", &Finding::name);
+  };
+  EXPECT_EQ(steps_in(audited({}, {vibration, first, second, other}).findings), 2) << "one of each compass";
+  EXPECT_EQ(steps_in(audited({}, {first, second}).findings), 2);
 }
 
 TEST(Audit, TheDelayOfAFieldNeedsNoTilt) {
