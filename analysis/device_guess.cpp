@@ -63,10 +63,9 @@ std::string checksum_line(const std::optional<Checksum>& checksum) {
 std::string binary_description(protocols::Bytes capture, std::optional<double> seconds) {
   const auto framings = find_framings(capture);
   if (framings.empty() || framings.front().coverage < kLeastCoverage)
-    throw base::Failure(
-        base::Exit::bad_input,
-        "no pair of bytes comes back at one distance, or at one that a number behind it states: is the "
-        "line speed right, and is the capture long enough?");
+    throw base::Failure(base::Exit::bad_input,
+                        "no pair of bytes comes back at one distance, or at one that a number behind it states: "
+                        "is the line speed right, and is the capture long enough?");
   constexpr double kAboutAsWell = 0.9;
   const Framing* chosen = &framings.front();
   std::optional<Checksum> checksum;

@@ -109,10 +109,9 @@ void add_audit(CLI::App& app) {
   auto* command =
       app.add_subcommand("audit", "what is wrong with the sensors of a log, what it costs, and what to do");
   command
-      ->add_option(
-          "FILE", arguments->files,
-          "log or capture of navcal, or a log of another system, known by its content; of several, each is "
-          "compared with the first")
+      ->add_option("FILE", arguments->files,
+                   "log or capture of navcal, or a log of another system, known by its content; of several, each "
+                   "is compared with the first")
       ->required();
   add_valued(command, "--vehicle", "LAYOUT.toml", arguments->vehicle,
              "layout: commands are checked against the motion, too");

@@ -79,8 +79,8 @@ void Input::refuse_recording(protocols::Bytes first) const {
   const bool capture = text.starts_with("#capture ");
   if (!capture && !text.starts_with(record::kMcapMagic)) return;
   throw base::Failure(base::Exit::bad_input,
-                      fmt::format("{}: {}, not the bytes of one device: --port NAME decodes one of its "
-                                  "ports, \"navcal log info\" lists them",
+                      fmt::format("{}: {}, not the bytes of one device: --port NAME decodes one of its ports, "
+                                  "\"navcal log info\" lists them",
                                   name_, capture ? "a capture" : "a log"));
 }
 

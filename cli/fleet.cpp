@@ -92,10 +92,9 @@ void tell_causes(const CausesOptions& options) {
   if (read.missions.empty()) {
     throw base::Failure(
         base::Exit::bad_input,
-        fmt::format(
-            "{}: no mission has an answer of the job evidence ({} open, {} failed); plan it with: navcal fleet "
-            "plan FOLDER -o {} --job evidence, and do it with: navcal fleet submit {} --local",
-            options.plan, read.open, read.failed, options.plan, options.plan));
+        fmt::format("{}: no mission has an answer of the job evidence ({} open, {} failed); plan it with: navcal "
+                    "fleet plan FOLDER -o {} --job evidence, and do it with: navcal fleet submit {} --local",
+                    options.plan, read.open, read.failed, options.plan, options.plan));
   }
   if (read.open > 0) {
     read.remarks.push_back(fmt::format("{} recordings have no answer yet (navcal fleet submit)", read.open));
@@ -163,8 +162,7 @@ void add_fleet_run(CLI::App& parent) {
   command->add_flag("--again", options->again, "do tasks once more that failed");
   command->footer(
       "The exit status is 0 when each task has a result, 1 when one has none. An error that the recording causes "
-      "is "
-      "a result.\n\n"
+      "is a result.\n\n"
       "Example: navcal fleet run plan/ --task 17\n"
       "         seq 200 | parallel navcal fleet run plan/ --task {}");
   command->callback([options] {
@@ -173,10 +171,9 @@ void add_fleet_run(CLI::App& parent) {
 }
 
 void add_fleet_causes(CLI::App& parent) {
-  auto* command = parent.add_subcommand(
-      "causes",
-      "what the missions tell together: which causes belong to a vehicle, to the design, to a day, and when "
-      "they began");
+  auto* command = parent.add_subcommand("causes",
+                                        "what the missions tell together: which causes belong to a vehicle, to "
+                                        "the design, to a day, and when they began");
   const auto options = std::make_shared<CausesOptions>();
   command->add_option("PLAN", options->plan, "folder of the plan, with results of the job evidence")->required();
   add_valued(command, "--json", "FILE|-", options->json,

@@ -196,10 +196,9 @@ void add_gap_trial(CLI::App& gap) {
   auto& asking = options->asking;
   add_valued(command, "--cases", "N", options->cases, "number of cases; each has three missions of one vehicle")
       ->check(CLI::Range(1, 100000));
-  command->add_flag(
-      "--active", options->active,
-      "after each answer the vehicle sails what navcal gap next plans, and is diagnosed again; controls "
-      "sail as many minutes of survey, and of random manoeuvres");
+  command->add_flag("--active", options->active,
+                    "after each answer the vehicle sails what navcal gap next plans, and is diagnosed again; "
+                    "controls sail as many minutes of survey, and of random manoeuvres");
   add_number(command, "--missions", 1, validation::kMostPlannedMissions, options->missions,
              "missions that are sailed after the first one; with --active");
   add_defaulted(command, "--seed", options->seed, "seed of effects, strengths, vehicles and noise");
@@ -208,8 +207,8 @@ void add_gap_trial(CLI::App& gap) {
       "length of a mission, unless the arm has its own: 3 or 10, default 10; with --layout 0.75 to 60, default 3")
       ->check(CLI::Range(0.75, 60.0));
   add_number(command, "--places", 1, 100000, options->places,
-             "number of places, dates and waters that are drawn, one of them for each case; null missions "
-             "serve one place each");
+             "number of places, dates and waters that are drawn, one of them for each case; null missions serve "
+             "one place each");
   auto& on = options->on_layouts;
   add_repeatable(command, "--layout", "FILE.toml", options->layouts,
                  "instead of the reference vehicle, vehicles by this layout, whose actuators are thrusters, up to "

@@ -116,8 +116,7 @@ void add_vehicle_check(CLI::App& vehicle) {
       "status 0\n"
       "also with oddities; 1 when the layout cannot be simulated, 3 when it cannot be read.\n"
       "With recordings: whether units, signs and frames of their channels agree with each other, and the motion "
-      "with "
-      "the\n"
+      "with the\n"
       "commands. docs/vehicles.md lists what is found.\n\n"
       "Example: navcal vehicle check remus-100.toml dive.mcap");
   command->callback([arguments] { check_layout(*arguments); });

@@ -23,8 +23,7 @@ constexpr std::array<TableText, 18> kTableDescriptions{{
      "The port for each quantity, if several deliver it. Another one takes over while that port is silent."},
     {"instruments",
      "What is known of the instruments beside their ports: noise (white, one standard deviation of a reading), "
-     "lag "
-     "and turn-on bias. Simulator, diagnosis, navigation and calibrators share it."},
+     "lag and turn-on bias. Simulator, diagnosis, navigation and calibrators share it."},
     {"calibration", "The calibrators of compass and gyros (docs/calibration.md)."},
     {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
     {"command",

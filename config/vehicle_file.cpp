@@ -36,9 +36,7 @@ VehicleSettings load_vehicle(const std::filesystem::path& file) {
 
 std::string vehicle_file(const VehicleSettings& settings) {
   const std::string out =
-      "# A vehicle of the simulator: navcal simulate --vehicle FILE, navcal emulate --vehicle FILE. What "
-      "is "
-      "not\n"
+      "# A vehicle of the simulator: navcal simulate --vehicle FILE, navcal emulate --vehicle FILE. What is not\n"
       "# given is as here: a miniature AUV with one propeller and three fins. The equations are in "
       "docs/simulator.md.\n";
   const auto heading = [](std::string_view table) {

@@ -106,8 +106,7 @@ void append_command(std::string& out, const config::Settings& settings) {
   };
   out += fmt::format(
       "orders: to {} up to {} rpm ({}) and {} deg ({}), at most {} a second; a lease of {} to {} s; then {} rpm, "
-      "fins "
-      "{} deg\n",
+      "fins {} deg\n",
       settings.ports[*port].name, command.max_rpm, slew(command.slew_rpm_s, "rpm/s"), command.max_fin_deg,
       slew(command.slew_fin_deg_s, "deg/s"), command.max_orders_Hz, command.min_timeout_s, command.max_timeout_s,
       command.safe_rpm, fmt::join(command.safe_fins_deg, " "));

@@ -16,9 +16,8 @@ using Json = nlohmann::json;
 /// In the order of ControlCommand.
 constexpr std::string_view kCommands =
     "event, log.rotate, log.start, log.stop, log.select, log.list, log.read, log.sum, power.on, power.off, "
-    "power.list, "
-    "calibration.start, calibration.accept, calibration.rollback, calibration.stop, motor.lease, motor.order, "
-    "motor.release, motor.stop, battery.full, battery.set, device.command, device.commands, status";
+    "power.list, calibration.start, calibration.accept, calibration.rollback, calibration.stop, motor.lease, "
+    "motor.order, motor.release, motor.stop, battery.full, battery.set, device.command, device.commands, status";
 
 std::optional<ControlCommand> command_named(std::string_view name) {
   int number = 0;

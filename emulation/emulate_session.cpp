@@ -123,10 +123,10 @@ sim::EffectSet effects_of(const EmulateArguments& arguments, const std::optional
     const auto& about = set[i].description();
     const bool on_path = !arguments.ordered && arguments.mission.empty();
     if (!on_path || about.place != sim::EffectPlace::vehicle) continue;
-    throw base::Failure(base::Exit::usage,
-                        fmt::format("{} changes how the vehicle moves, and a path says how it moves: take "
-                                    "--vehicle or --mission",
-                                    about.name));
+    throw base::Failure(
+        base::Exit::usage,
+        fmt::format("{} changes how the vehicle moves, and a path says how it moves: take --vehicle or --mission",
+                    about.name));
   }
   return set;
 }

@@ -71,10 +71,11 @@ std::optional<base::GeodeticPosition> PlaceArguments::position() const {
   if (!place) return std::nullopt;
   const std::vector<double> numbers = numbers_in(*place);
   if (numbers.size() != 2 && numbers.size() != 3) {
-    throw base::Failure(base::Exit::usage,
-                        fmt::format("--place {}: expected LAT,LON or LAT,LON,HEIGHT_M, in degrees and metres "
-                                    "(such as 59.33,18.07)",
-                                    *place));
+    throw base::Failure(
+        base::Exit::usage,
+        fmt::format(
+            "--place {}: expected LAT,LON or LAT,LON,HEIGHT_M, in degrees and metres (such as 59.33,18.07)",
+            *place));
   }
   if (!(numbers[0] >= -90 && numbers[0] <= 90) || !(numbers[1] >= -180 && numbers[1] <= 360)) {
     throw base::Failure(base::Exit::usage,

@@ -98,10 +98,10 @@ void refuse_on_path(const sim::EffectSet& set) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto& about = set[i].description();
     if (about.place != sim::EffectPlace::vehicle) continue;
-    throw base::Failure(base::Exit::usage,
-                        fmt::format("{} changes the vehicle's motion, which --path determines: use "
-                                    "--drive or --mission",
-                                    about.name));
+    throw base::Failure(
+        base::Exit::usage,
+        fmt::format("{} changes the vehicle's motion, which --path determines: use --drive or --mission",
+                    about.name));
   }
   if (!set.layout_members().empty())
     throw base::Failure(base::Exit::usage,

@@ -17,10 +17,10 @@ MotionOnMission driven(const ChosenVehicle& vehicle, const SimulateArguments& ar
                        const sim::MotionOptions& options) {
   const auto* three_fins = std::get_if<config::VehicleSettings>(&vehicle);
   if (three_fins == nullptr)
-    throw base::Failure(base::Exit::usage,
-                        fmt::format("{} is a layout, and --drive moves one propeller and three fins: a layout "
-                                    "takes --mission",
-                                    arguments.vehicle.string()));
+    throw base::Failure(
+        base::Exit::usage,
+        fmt::format("{} is a layout, and --drive moves one propeller and three fins: a layout takes --mission",
+                    arguments.vehicle.string()));
   auto helm = std::make_unique<sim::DriveHelm>(sim::load_path(arguments.drive));
   return {std::make_unique<sim::SimulatedMotion>(*three_fins, std::move(helm), options), {}};
 }

@@ -121,9 +121,8 @@ std::unique_ptr<Recording> open_whole(const std::filesystem::path& file) {
   if (begin == kCapture) return std::make_unique<CaptureRecording>(std::move(whole), file.string());
   throw BadRecording(
       file.string() +
-      ": neither a capture (\"#capture 1\") nor a log (MCAP); \"navcal log import\" reads those of other "
-      "systems that it knows by their content, and with --driver NAME (navcal log import --help) a device's "
-      "bytes");
+      ": neither a capture (\"#capture 1\") nor a log (MCAP); \"navcal log import\" reads those of other systems "
+      "that it knows by their content, and with --driver NAME (navcal log import --help) a device's bytes");
 }
 
 }  // namespace

@@ -125,8 +125,7 @@ std::vector<Figure> convergence_figures(const analysis::CalibrateHistory::Estima
       draw(plot, kCalibratorInks[i], names[i], curves[i], time, group.factor);
     figures.push_back({group.title, plot.svg(),
                        "With two standard errors to either side; large errors of the first estimates are outside "
-                       "the plot. The first "
-                       "minute is enlarged."});
+                       "the plot. The first minute is enlarged."});
   }
   return figures;
 }

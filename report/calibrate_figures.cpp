@@ -104,8 +104,8 @@ std::optional<Figure> residual_figure(const calib::Report& report,
   plot.points(Ink::before, "as measured", before);
   plot.points(Ink::after, "calibrated", after);
   std::string caption = fmt::format(
-      "Heading less the integrated gyro, by blocks of turning. Root-mean-square {:.2f} degrees, "
-      "calibrated {:.2f}. These readings were used for the estimates; those of the figures above were not.",
+      "Heading less the integrated gyro, by blocks of turning. Root-mean-square {:.2f} degrees, calibrated "
+      "{:.2f}. These readings were used for the estimates; those of the figures above were not.",
       analysis::root_mean_square(residuals, &analysis::HeadingResidual::before_rad) * base::kDegreesPerRadian,
       analysis::root_mean_square(residuals, &analysis::HeadingResidual::after_rad) * base::kDegreesPerRadian);
   const auto accepted = accepted_estimates(report);

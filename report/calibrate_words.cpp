@@ -114,8 +114,7 @@ std::string held_out_of(const calib::CalibratorReport& report, std::string_view 
 
 std::string sentence_of(const calib::HeadingCheck& heading) {
   if (heading.blocks == 0) {
-    return "The heading could not be judged: that needs a calibrated gyro (inertial card), and turns "
-           "after that.";
+    return "The heading could not be judged: that needs a calibrated gyro (inertial card), and turns after that.";
   }
   return fmt::format(
       "Heading against the calibrated gyro, on held-out readings: {:.2f} deg as measured, {:.2f} deg calibrated "

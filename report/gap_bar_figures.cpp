@@ -125,8 +125,7 @@ std::optional<Figure> cause_figure(const gap::Diagnosis& diagnosis) {
   return Figure{outside ? "Considered, but not sufficient" : "Causes by probability", std::move(html),
                 effects.empty()
                     ? "No cause is named. " + std::string(candidates_heading(diagnosis.kind))
-                    : "Blue: the set on which the verdict rests, with standard errors. Grey: considered "
-                      "as well."};
+                    : "Blue: the set on which the verdict rests, with standard errors. Grey: considered as well."};
 }
 
 std::optional<Figure> closure_figure(const gap::Diagnosis& diagnosis, const GapSource& source) {

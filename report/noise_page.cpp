@@ -111,8 +111,7 @@ Figure allan_figure(const RecordedChannel& recorded) {
   plot.points(NoiseInk::first, "", line);
   return {"Allan deviation", plot.svg(),
           "Overlapping estimate with its 95 % interval. Straight lines: the terms that the readings support, with "
-          "their "
-          "slopes."};
+          "their slopes."};
 }
 
 Figure spectrum_figure(const RecordedChannel& recorded) {
@@ -141,9 +140,9 @@ Figure spectrum_figure(const RecordedChannel& recorded) {
     plot.word(log_point(*nearest, roots[at]), fmt::format("{:.3g} Hz", found.frequency_Hz));
   }
   return {"Spectrum", plot.svg(),
-          fmt::format("Root of the one-sided power density, {:.0f} segments. White noise of density N is level at "
-                      "1.41 N.",
-                      spectrum.segments)};
+          fmt::format(
+              "Root of the one-sided power density, {:.0f} segments. White noise of density N is level at 1.41 N.",
+              spectrum.segments)};
 }
 
 /// Allan deviations of channels of one unit in one plot, four at most.
@@ -228,8 +227,7 @@ std::string noise_page(const analysis::NoiseReport& report) {
     page.table(noise_heads(), rows);
     page.paragraph(
         "The noise of a reading is one standard deviation, rounding included. White noise is the root of the "
-        "two-sided "
-        "power density (of a rate: the angle random walk). A value after < is a 95 % limit.");
+        "two-sided power density (of a rate: the angle random walk). A value after < is a 95 % limit.");
   }
   std::vector<Figure> overview;
   for (const auto& group : overview_groups(report)) overview.push_back(allan_overview(group));

@@ -74,8 +74,8 @@ std::string rest_sentence(const analysis::NoiseReport& report) {
   if (report.quiet.empty() && report.quietest) {
     const auto& window = *report.quietest;
     return fmt::format(
-        "no part is at rest: even in the quietest 8 s, from {:.0f} s on, {} {} {:.3g} {}; rest is below "
-        "{:.3g} {}. --from and --to choose a part all the same.",
+        "no part is at rest: even in the quietest 8 s, from {:.0f} s on, {} {} {:.3g} {}; rest is below {:.3g} "
+        "{}. --from and --to choose a part all the same.",
         window.from_s, window.channel, window.what, window.value, window.unit, window.limit, window.unit);
   }
   if (report.quiet.empty())

@@ -111,10 +111,9 @@ Figure error_against_time(const std::vector<Point>& errors, const std::vector<Po
                {"distance to the first fix, m", whole_range_of(metres)});
   plot.points(SurfacingInk::second, "stated standard error", stated);
   plot.points(SurfacingInk::first, "measured", errors);
-  return {
-      "Growth of the position error", plot.svg(),
-      "Distance from the reckoned position to the first fix, whose own error is in it, and its stated standard "
-      "error."};
+  return {"Growth of the position error", plot.svg(),
+          "Distance from the reckoned position to the first fix, whose own error is in it, and its stated "
+          "standard error."};
 }
 
 }  // namespace

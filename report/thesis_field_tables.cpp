@@ -44,10 +44,10 @@ ThesisTable circle_table(const analysis::ThesisResults& results) {
   return {
       "4.2",
       "Magnetometer: shifted and flattened circles",
-      "Errors of heading in degrees. The thesis prints the distortions; its errors are the limits of the axes "
-      "of its figures. Residual: largest error of a calibrated sample, noise included. Calibration alone: "
-      "largest error that the calibration makes of a field without noise. The columns with noise have 0.1 uT in "
-      "every row, and are root mean squares over the circle and the runs. Medians over the runs in figure 4.12.",
+      "Errors of heading in degrees. The thesis prints the distortions; its errors are the limits of the axes of "
+      "its figures. Residual: largest error of a calibrated sample, noise included. Calibration alone: largest "
+      "error that the calibration makes of a field without noise. The columns with noise have 0.1 uT in every "
+      "row, and are root mean squares over the circle and the runs. Medians over the runs in figure 4.12.",
       {thesis_part("figures", "", ours.size(), columns)}};
 }
 
@@ -70,14 +70,13 @@ ThesisTablePart field_path_part(const std::string& figure,
 }  // namespace
 
 std::vector<ThesisTable> thesis_field_tables(const analysis::ThesisResults& results) {
-  return {
-      circle_table(results),
-      {"magnetometer-paths",
-       "Magnetometer on the eight paths",
-       "The thesis leaves this comparison to future work (section 4.4). Largest error over the circle that the "
-       "calibration makes of a field without noise, degrees; medians over the runs. The mean and the two "
-       "largest samples need whole circles at a constant rate, which only path 7 comes near.",
-       {field_path_part("4.11", results.field_paths[0]), field_path_part("4.12", results.field_paths[1])}}};
+  return {circle_table(results),
+          {"magnetometer-paths",
+           "Magnetometer on the eight paths",
+           "The thesis leaves this comparison to future work (section 4.4). Largest error over the circle that "
+           "the calibration makes of a field without noise, degrees; medians over the runs. The mean and the two "
+           "largest samples need whole circles at a constant rate, which only path 7 comes near.",
+           {field_path_part("4.11", results.field_paths[0]), field_path_part("4.12", results.field_paths[1])}}};
 }
 
 }  // namespace navcal::report

@@ -77,16 +77,15 @@ ThesisTable convergence_table(const analysis::ThesisResults& results) {
 }  // namespace
 
 std::vector<ThesisTable> thesis_gyro_tables(const analysis::ThesisResults& results) {
-  return {
-      {"3.1", "Gyro by least squares",
-       "Percentages are 100 (estimate - true) / |true|, as in the thesis: a positive one of the bias means less "
-       "negative. The compass has no error but noise.",
-       gyro_parts(results, false)},
-      {"3.2", "Gyro by the adaptive identifier",
-       "Percentages as in table 3.1. The columns of navcal repeat those of table 3.1, because one recursive "
-       "filter takes the place of both methods.",
-       gyro_parts(results, true)},
-      convergence_table(results)};
+  return {{"3.1", "Gyro by least squares",
+           "Percentages are 100 (estimate - true) / |true|, as in the thesis: a positive one of the bias means "
+           "less negative. The compass has no error but noise.",
+           gyro_parts(results, false)},
+          {"3.2", "Gyro by the adaptive identifier",
+           "Percentages as in table 3.1. The columns of navcal repeat those of table 3.1, because one recursive "
+           "filter takes the place of both methods.",
+           gyro_parts(results, true)},
+          convergence_table(results)};
 }
 
 }  // namespace navcal::report

@@ -36,8 +36,7 @@ const std::array<LevelFieldFigure, 4> kLevelFields{
      {"2.5",
       "Level field with hard iron",
       "The circle is shifted; the error is one wave for each turn, within 15 degrees. The shift of 4 and 2.5 uT "
-      "is "
-      "ours, within that range.",
+      "is ours, within that range.",
       {{4, 2.5}}},
      {"2.6",
       "Level field with soft iron",
@@ -137,20 +136,19 @@ ThesisFigure thesis_deviation_figure() {
 
 ThesisFigure thesis_hard_iron_figure() {
   const EllipseShape shape = level_field(kLevelFields[2]);
-  return {
-      "4.7",
-      "Hard iron and its model",
-      "The heading error of the field of figure 2.5, and the sinusoid B sin + C cos of equation (2.4) at the "
-      "measured heading, with B and C from shift and radius. The error is the arc sine of the sinusoid, which is "
-      "0.15 degrees more at the peaks.",
-      {{"Error of the heading",
-        kTrueHeading,
-        "degrees",
-        {heading_error_curve("hard iron", shape), round_curve("model", Ink::first, [&](double heading_rad) {
-           const Eigen::Vector2d tip = shape.at(heading_rad);
-           return (shape.centre_uT.x() * tip.y() - shape.centre_uT.y() * tip.x()) / tip.norm() / kLevelField_uT *
-                  base::kDegreesPerRadian;
-         })}}}};
+  return {"4.7",
+          "Hard iron and its model",
+          "The heading error of the field of figure 2.5, and the sinusoid B sin + C cos of equation (2.4) at the "
+          "measured heading, with B and C from shift and radius. The error is the arc sine of the sinusoid, which "
+          "is 0.15 degrees more at the peaks.",
+          {{"Error of the heading",
+            kTrueHeading,
+            "degrees",
+            {heading_error_curve("hard iron", shape), round_curve("model", Ink::first, [&](double heading_rad) {
+               const Eigen::Vector2d tip = shape.at(heading_rad);
+               return (shape.centre_uT.x() * tip.y() - shape.centre_uT.y() * tip.x()) / tip.norm() /
+                      kLevelField_uT * base::kDegreesPerRadian;
+             })}}}};
 }
 
 }  // namespace navcal::report

@@ -116,19 +116,18 @@ void add_reading_help(HtmlPage& page, const analysis::ThesisResults& results) {
       {"column", "meaning"},
       {{"thesis", "the number as printed in 2003"},
        {"recomputed",
-        "the algorithm of the thesis on our eight paths, without noise. The paths are new: only "
-        "extent, rates and headings of the original ones are on record"},
+        "the algorithm of the thesis on our eight paths, without noise. The paths are new: only extent, rates and "
+        "headings of the original ones are on record"},
        {"navcal", "navcal's own calibrator on the same readings"},
-       {"noise", fmt::format("root mean square of the error over {} runs with the noise of the thesis: 0.001 "
-                             "rad in roll and pitch, 0.004 rad in the compass, 0.005 rad/s in the gyro, 0.1 uT "
-                             "in the magnetometer",
-                             results.runs)},
+       {"noise",
+        fmt::format("root mean square of the error over {} runs with the noise of the thesis: 0.001 rad in roll "
+                    "and pitch, 0.004 rad in the compass, 0.005 rad/s in the gyro, 0.1 uT in the magnetometer",
+                    results.runs)},
        {"bound",
-        "the Cramer-Rao bound for this noise on this path, one standard deviation: no unbiased method "
-        "can be better"},
+        "the Cramer-Rao bound for this noise on this path, one standard deviation: no unbiased method can be "
+        "better"},
        {"... / bound",
-        "error in units of the bound. Column thesis / bound: the printed error, which had no "
-        "noise"}});
+        "error in units of the bound. Column thesis / bound: the printed error, which had no noise"}});
 }
 
 }  // namespace
@@ -140,8 +139,7 @@ std::string thesis_page(const analysis::ThesisResults& results) {
   page.paragraph(
       "J. J. Mach's thesis (Virginia Tech, July 2003) calibrates the gyro and the compass of a small underwater "
       "vehicle. This page recomputes its tables and figures, and compares them with navcal and with the best that "
-      "the "
-      "readings allow.");
+      "the readings allow.");
   for (const auto& finding : thesis_findings(results)) page.fact("plain", finding.word, finding.sentence);
   add_index(page, tables, figures);
   add_reading_help(page, results);

@@ -53,10 +53,11 @@ std::vector<Figure> calibration_figure(const validation::TrialScores& scores) {
   }
   if (points.empty()) return {};
   plot.points(Ink::before, "in tenths, with 95 %", points);
-  return {{"Calibration of the probabilities", plot.svg(),
-           fmt::format("Probabilities of effects in explained cases against the share that was present; mean "
-                       "distance {:.3f}.",
-                       validation::calibration_error(scores.calibration))}};
+  return {
+      {"Calibration of the probabilities", plot.svg(),
+       fmt::format(
+           "Probabilities of effects in explained cases against the share that was present; mean distance {:.3f}.",
+           validation::calibration_error(scores.calibration))}};
 }
 
 std::vector<Figure> closure_figure(const std::vector<double>& closures) {
@@ -106,8 +107,8 @@ std::vector<Figure> confusion_figure(const validation::TrialConfusion& confusion
     }
   }
   return {{"Truth (rows) against answer (columns)", matrix.svg("Confusion matrix"),
-           "Blue: right. Orange: wrong. A case counts for each effect that is present; effects at less than "
-           "half their typical strength and the poor missions are left out."}};
+           "Blue: right. Orange: wrong. A case counts for each effect that is present; effects at less than half "
+           "their typical strength and the poor missions are left out."}};
 }
 
 void append_verdict(HtmlPage& page, const TrialReport& report) {

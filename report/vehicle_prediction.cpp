@@ -55,8 +55,7 @@ std::string vehicle_prediction_text(const identify::Prediction& found) {
   if (found.is_steered)
     out +=
         "The vehicle is steered: standing still is not three times worse than holding or the regression. Errors "
-        "after "
-        "10 and\n60 s judge its controller; those after 1 s judge the layout.\n";
+        "after 10 and\n60 s judge its controller; those after 1 s judge the layout.\n";
   if (found.worse_than_linear) out += "The layout is worse than the linear regression.\n";
   if (found.worse_than_hold) out += "The layout is worse than holding the velocity.\n";
   return out;

@@ -138,8 +138,8 @@ NominalRuns responses_of(std::span<const Run> runs, NominalVehicle& vehicle) {
       std::ranges::any_of(nominal.sessions, [](const auto& runs_of) { return runs_of.size() >= kRunsOfASession; });
   if (!enough) {
     throw BadNominal(
-        fmt::format("no session of {} nominal runs is found: they must follow each other within half an "
-                    "hour, with the same ballast",
+        fmt::format("no session of {} nominal runs is found: they must follow each other within half an hour, "
+                    "with the same ballast",
                     kRunsOfASession));
   }
   return nominal;

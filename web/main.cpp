@@ -49,8 +49,8 @@ void add_outlet_options(CLI::App& app, web::OutletOptions& options) {
     return web::mqtt_broker(text) ? std::string() : std::string("wants HOST or HOST:PORT");
   };
   app.add_option("--vessel", options.vessel,
-                 "name of the vessel in Signal K, urn:mrn:imo:mmsi:NUMBER or urn:mrn:signalk:uuid:UUID; "
-                 "without it one that is derived from this machine")
+                 "name of the vessel in Signal K, urn:mrn:imo:mmsi:NUMBER or urn:mrn:signalk:uuid:UUID; without "
+                 "it one that is derived from this machine")
       ->check(CLI::Validator(web::problem_of_vessel, "NAME"));
   app.add_option("--mqtt", options.mqtt.broker,
                  "publishes to this MQTT broker; the port is 1883 unless it is given")
@@ -114,8 +114,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--token-file", options.token_file,
                  "file with the token that changes of the vehicle need; without it everything is read-only");
   app.add_option("--host-name", options.host_names,
-                 "name under which browsers reach this server, if it has a dot and does not end in .local; "
-                 "may be repeated")
+                 "name under which browsers reach this server, if it has a dot and does not end in .local; may be "
+                 "repeated")
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--allow-origin", options.origins,

@@ -61,10 +61,11 @@ HeldOutWords held_out_words(const calib::CalibratorReport& report, const IronErr
   if (judgement.held_out_quantity == calib::HeldOutQuantity::field)
     return spread(before, after, "calibrated, both on held-out readings");
   if (judgement.held_out_quantity != calib::HeldOutQuantity::heading) return {};
-  return {after < before, before < after,
-          fmt::format("On held-out readings the heading is {:.2f} deg off the gyro's as measured and {:.2f} deg "
-                      "calibrated.",
-                      before * kDegreesPerRadian, after * kDegreesPerRadian)};
+  return {
+      after < before, before < after,
+      fmt::format(
+          "On held-out readings the heading is {:.2f} deg off the gyro's as measured and {:.2f} deg calibrated.",
+          before * kDegreesPerRadian, after * kDegreesPerRadian)};
 }
 
 Finding iron_finding(const AuditedLog& log) {

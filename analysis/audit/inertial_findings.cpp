@@ -236,8 +236,7 @@ Bounded append_delay(std::vector<Finding>& findings, const AuditedLog& log, Cali
     finding.certainty = are_both ? Certainty::found : Certainty::likely;
     finding.todo =
         "Give the later sensor its latency in the configuration of the estimator (navcal calibrate and navcald, "
-        "of a "
-        "compass: calibration.compass_delay_ms).";
+        "of a compass: calibration.compass_delay_ms).";
     finding.put_heading(std::abs(delay_s) * kRate_deg_s, log.speed_m_s());
     finding.position_m = std::abs(delay_s) * log.speed_m_s();  // the way in that time, however long the log is
     finding.sentence += fmt::format(" The cost is that of a turn of {:.0f} deg/s.", kRate_deg_s);

@@ -95,8 +95,7 @@ Finding jumps_finding(const AuditedLog& log, const RecordedChannel& north) {
   finding.put_count(static_cast<double>(jumps), "");
   finding.sentence = fmt::format(
       "{} of {} fixes lie more than {:.0f} m from where the fix before and the velocity put them; the largest "
-      "miss is "
-      "{:.1f} m.",
+      "miss is {:.1f} m.",
       jumps, misses_m.size(), limit_m, largest_m);
   if (jumps == 0) return finding;
   finding.certainty = Certainty::found;

@@ -63,11 +63,10 @@ fs::path thesis_folder() {
   for (const fs::path& folder : {installed, built}) {
     if (has_paths(folder)) return folder;
   }
-  throw base::Failure(
-      base::Exit::failed,
-      fmt::format("the paths of the thesis (path1.csv to path8.csv) are missing in {}; install them "
-                  "again, or name their folder with --paths",
-                  installed.string()));
+  throw base::Failure(base::Exit::failed,
+                      fmt::format("the paths of the thesis (path1.csv to path8.csv) are missing in {}; install "
+                                  "them again, or name their folder with --paths",
+                                  installed.string()));
 }
 
 std::array<ThesisPath, kThesisPaths> load_thesis_paths(const fs::path& folder) {

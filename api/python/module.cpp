@@ -296,8 +296,8 @@ void bind_next_mission(py::module_& module) {
         return api::plan_next_mission(recordings, options);
       },
       py::arg("missions"), py::arg("progress") = py::none(),
-      "Plans the mission that tells best what a diagnosis leaves open. "
-      "Keywords: the members of DiagnoseOptions and of NextMissionOptions.");
+      "Plans the mission that tells best what a diagnosis leaves open. Keywords: the members of DiagnoseOptions "
+      "and of NextMissionOptions.");
 }
 
 }  // namespace

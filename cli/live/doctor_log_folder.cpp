@@ -90,11 +90,10 @@ Finding check_log_folder(const config::LogSettings& settings, const Account& acc
                  fmt::format("sudo chown {} {}", account.name, folder));
   }
   if (account.name == kServiceUser && !service_may_write(folder, etc)) {
-    return fault(
-        topic, folder + ": navcald.service may write to /var/lib/navcal only",
-        fmt::format("`sudo navcal doctor --fix` writes a drop-in: [Service] ReadWritePaths={0} and [Unit] "
-                    "RequiresMountsFor={0}",
-                    folder));
+    return fault(topic, folder + ": navcald.service may write to /var/lib/navcal only",
+                 fmt::format("`sudo navcal doctor --fix` writes a drop-in: [Service] ReadWritePaths={0} and "
+                             "[Unit] RequiresMountsFor={0}",
+                             folder));
   }
   const auto free_bytes = record::real_disk().free_bytes(settings.directory, error);
   if (error) return fault(topic, folder + ": " + error.message(), "look at `df -h " + folder + "`");

@@ -72,8 +72,7 @@ int main(int argc, char** argv) {
   using navcal::base::Exit;
   CLI::App app{
       "navcal: reads, calibrates, records and simulates the instruments of a small underwater vehicle, and names "
-      "the "
-      "cause\nwhere it departs from its model",
+      "the cause\nwhere it departs from its model",
       "navcal"};
   app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
   app.require_subcommand(1);

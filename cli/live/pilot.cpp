@@ -160,8 +160,8 @@ void add_pilot(CLI::App& app) {
              "a mission that is shipped, or a TOML file; as simulate takes it")
       ->required();
   add_valued(command, "--gains", "FILE.toml", options->gains,
-             "TOML file with the table [autopilot], and [hull] and [propeller], from which the shaft speed "
-             "for a speed\nfollows; what it does not say is as in config/pilot.toml");
+             "TOML file with the table [autopilot], and [hull] and [propeller], from which the shaft speed for a "
+             "speed\nfollows; what it does not say is as in config/pilot.toml");
   add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->address.control,
              "navcald's control socket");
   add_valued(command, "--host", "HOST [127.0.0.1]", options->address.host, "where navcald's status socket is");
@@ -177,9 +177,9 @@ void add_pilot(CLI::App& app) {
       ->check(CLI::Range(0.1, 3600.0));
   add_limits(command, *options);
   command->footer(
-      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply or battery, near "
-      "the sea floor,\nwhen a lease is lost, and on Ctrl-C: the shaft is off, the fins steer to the surface for 5 "
-      "s and are neutral after that.\n"
+      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply or battery, near the "
+      "sea floor,\nwhen a lease is lost, and on Ctrl-C: the shaft is off, the fins steer to the surface for 5 s "
+      "and are neutral after that.\n"
       "docs/pilot.md shows how to try it without water.\n\n"
       "Example: navcal pilot survey --control /run/navcal/control --max-depth 5");
   command->callback([options] { run_pilot(*options); });

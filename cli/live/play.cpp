@@ -51,8 +51,7 @@ void add_play(CLI::App& app) {
              "seconds to wait, after `ready`, until every port has been opened, so that nothing of the\n"
              "beginning is missed; then it starts anyway. 0 starts at once");
   command->footer(
-      "Like a real line it waits for no reader: unread bytes are lost, and counted at the end. Bytes sent "
-      "to\n"
+      "Like a real line it waits for no reader: unread bytes are lost, and counted at the end. Bytes sent to\n"
       "the devices are not played. Each read is one piece, as it was recorded.\n\n"
       "Example: navcal play dive.cap --dir /tmp/ports & navcald --config navcald.toml");
   command->callback([arguments] { run(*arguments); });

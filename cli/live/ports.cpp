@@ -124,10 +124,9 @@ void run(bool json) {
     }
   }
   if (list.empty()) {
-    fmt::print(
-        stderr,
-        "This machine has no serial ports. A USB adapter is listed once it is plugged in; without hardware, "
-        "`navcal emulate --dir DIR` emulates instruments.\n");
+    fmt::print(stderr,
+               "This machine has no serial ports. A USB adapter is listed once it is plugged in; without "
+               "hardware, `navcal emulate --dir DIR` emulates instruments.\n");
   }
 }
 

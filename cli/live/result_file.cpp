@@ -54,18 +54,18 @@ void expect_no_overwriting(const Paths& inputs, const Paths& outputs) {
     if (!is_file_name(outputs[i])) continue;
     for (const fs::path& input : inputs) {
       if (!is_file_name(input) || !would_write_to(outputs[i], input)) continue;
-      throw base::Failure(base::Exit::usage,
-                          fmt::format("{}: this file is both input and output; nothing was done. Give the "
-                                      "output another name.",
-                                      outputs[i].string()));
+      throw base::Failure(
+          base::Exit::usage,
+          fmt::format("{}: this file is both input and output; nothing was done. Give the output another name.",
+                      outputs[i].string()));
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (!is_file_name(outputs[k])) continue;
       if (!would_write_to(outputs[i], outputs[k]) && !would_write_to(outputs[k], outputs[i])) continue;
-      throw base::Failure(base::Exit::usage,
-                          fmt::format("{}: two outputs have this name; nothing was done. Give each a name "
-                                      "of its own.",
-                                      outputs[i].string()));
+      throw base::Failure(
+          base::Exit::usage,
+          fmt::format("{}: two outputs have this name; nothing was done. Give each a name of its own.",
+                      outputs[i].string()));
     }
   }
 }

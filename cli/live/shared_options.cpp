@@ -20,9 +20,9 @@ record::TimeWindow WindowOptions::window() const {
     if (text.empty()) return std::nullopt;
     const auto found = record::parse_time_bound(text);
     if (!found)
-      throw base::Failure(base::Exit::usage, std::string(option) + ' ' + text +
-                                                 ": expected seconds from the start, or UTC such as "
-                                                 "2026-01-01T00:00:12Z");
+      throw base::Failure(base::Exit::usage,
+                          std::string(option) + ' ' + text +
+                              ": expected seconds from the start, or UTC such as 2026-01-01T00:00:12Z");
     return found;
   };
   const record::TimeWindow window{bound("--from", from), bound("--to", to)};
@@ -41,9 +41,9 @@ void add_window(CLI::App& command, WindowOptions& options, const std::string& fr
 
 void add_effect_options(CLI::App* command, std::vector<std::string>& effects, std::filesystem::path& file) {
   add_valued(command, "--effect", "NAME[@OF][=STRENGTH]", effects,
-             "departure from the nominal model, in typical strengths (default: 1); its direction comes from "
-             "the seed;\nrepeatable. Of a part of a layout: thrust_scale@thruster.2=1. navcal simulate "
-             "--list-effects names all")
+             "departure from the nominal model, in typical strengths (default: 1); its direction comes from the "
+             "seed;\nrepeatable. Of a part of a layout: thrust_scale@thruster.2=1. navcal simulate --list-effects "
+             "names all")
       ->each([](const std::string& text) {
         if (text.find('=') == std::string::npos)
           fmt::print(stderr, "navcal: --effect {0}: strength 1, the typical one; half of it: --effect {0}=0.5\n",
@@ -93,9 +93,9 @@ void add_clock_option(CLI::App* command, std::vector<sim::ClockFactor>& clocks) 
 }
 
 void add_place_and_field(CLI::App* command, emulation::PlaceArguments& arguments) {
-  add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", arguments.place,
-             "degrees north and east, metres above the ellipsoid; the Earth's field there is the World "
-             "Magnetic Model's");
+  add_valued(
+      command, "--place", "LAT,LON[,HEIGHT_M]", arguments.place,
+      "degrees north and east, metres above the ellipsoid; the Earth's field there is the World Magnetic Model's");
   add_valued(command, "--field", "N,E,D", arguments.field,
              "the Earth's field in uT: north, east and down of true north");
 }

@@ -105,8 +105,8 @@ void write_configuration(const StartPlan& plan) {
   const bool is_there = std::filesystem::exists(std::filesystem::symlink_status(file));
   if (is_there && config::content_of(file) != plan.toml)
     fail_start(
-        fmt::format("{}: the file is there with other content and is not written over. `navcald --config {}` "
-                    "runs it as it is; --output FILE writes another one",
+        fmt::format("{}: the file is there with other content and is not written over. `navcald --config {}` runs "
+                    "it as it is; --output FILE writes another one",
                     file, file));
   if (!plan.is_service) std::filesystem::create_directories(plan.configuration.parent_path());
   if (!is_there) write_new(file, plan.toml);
@@ -182,10 +182,10 @@ std::string service_lines(const StartPlan& plan, const StartRequest& request) {
   lines += "  sudo systemctl enable --now navcald.socket navcald navcal-web.socket navcal-web\n";
   if (plan.samples.empty()) return lines;
   const auto command = ros2_command(request, plan.samples);
-  return lines + fmt::format(
-                     "  OPTIONS=\"{}\" in /etc/navcal/ros2.conf, then\n  sudo systemctl enable --now "
-                     "navcal-ros2\n",
-                     fmt::join(command.begin() + 1, command.end(), " "));
+  return lines +
+         fmt::format(
+             "  OPTIONS=\"{}\" in /etc/navcal/ros2.conf, then\n  sudo systemctl enable --now navcal-ros2\n",
+             fmt::join(command.begin() + 1, command.end(), " "));
 }
 
 void start(const StartCommandOptions& options) {
@@ -220,10 +220,9 @@ void start(const StartCommandOptions& options) {
   if (!program.empty() && !base::Interruptible::interrupted()) {
     web.emplace(std::vector<std::string>{program, "--port", std::to_string(page), "--status",
                                          "127.0.0.1:" + status, "--control", folder + "/control"});
-    print_answer(
-        fmt::format("page: http://127.0.0.1:{}/\nlook: navcal watch --port {}\nlog: {}/log\nnavcald runs "
-                    "until Ctrl-C\n",
-                    page, status, folder));
+    print_answer(fmt::format(
+        "page: http://127.0.0.1:{}/\nlook: navcal watch --port {}\nlog: {}/log\nnavcald runs until Ctrl-C\n", page,
+        status, folder));
   }
   for (constexpr int kLook_ms = 200; !base::Interruptible::interrupted(); ::poll(nullptr, 0, kLook_ms))
     expect_running(daemon);

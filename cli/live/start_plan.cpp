@@ -24,10 +24,9 @@ std::string serial_place(const StartRequest& request, int usual_baud) {
   if (found.size() == 1 && !found[0].usb_serial.empty())
     return toml_line("usb_serial", found[0].usb_serial) + baud;
   if (found.size() == 1) return toml_line("path", found[0].path) + baud;
-  throw base::Failure(base::Exit::failed,
-                      fmt::format("start: this machine has {} serial ports; `navcal ports` lists them, and "
-                                  "--device names the one that is meant",
-                                  found.size()));
+  throw base::Failure(base::Exit::failed, fmt::format("start: this machine has {} serial ports; `navcal ports` "
+                                                      "lists them, and --device names the one that is meant",
+                                                      found.size()));
 }
 
 std::string network_place(const std::string& address) {
@@ -57,8 +56,7 @@ std::string port_of_ros2(const StartRequest& /*request*/, StartPlan& plan) {
   plan.samples = plan.is_service ? "/run/navcal/samples" : plan.configuration.parent_path() / "samples";
   plan.silent =
       "`ros2 topic hz TOPIC` says whether somebody publishes. Is ROS_DOMAIN_ID the same, and do both sides use "
-      "the "
-      "same network (CYCLONEDDS_URI, docs/ros2.md)?";
+      "the same network (CYCLONEDDS_URI, docs/ros2.md)?";
   return toml_line("protocol", "samples") + toml_line("address", "unix-listen:" + plan.samples);
 }
 

@@ -115,11 +115,10 @@ class FleetPage {
       matrix.counts.push_back(std::move(excess));
       matrix.agreeing.push_back(std::move(closed));
     }
-    return {
-        "Vehicles by time", matrix.svg("Excess over the floor"),
-        fmt::format("By how many standard deviations of missions without a gap the residuals of the nominal model "
-                    "exceed their mean. Blue: the causes close it; orange: it is left.{}",
-                    from > 0 ? fmt::format(" The last {} days.", kMostDays) : "")};
+    return {"Vehicles by time", matrix.svg("Excess over the floor"),
+            fmt::format("By how many standard deviations of missions without a gap the residuals of the nominal "
+                        "model exceed their mean. Blue: the causes close it; orange: it is left.{}",
+                        from > 0 ? fmt::format(" The last {} days.", kMostDays) : "")};
   }
 
   [[nodiscard]] report::Figure closure_by_vehicle() const {
@@ -139,10 +138,9 @@ class FleetPage {
     plot.points(FleetInk::fit, "floor", floor);
     plot.points(FleetInk::before, "nominal model", before);
     plot.points(FleetInk::after, "with the causes", after);
-    return {
-        "Closure", plot.svg(),
-        "Mean over the missions of each vehicle. 1 is the noise of the nominal vehicle. The causes in a mission's "
-        "model were determined by other missions."};
+    return {"Closure", plot.svg(),
+            "Mean over the missions of each vehicle. 1 is the noise of the nominal vehicle. The causes in a "
+            "mission's model were determined by other missions."};
   }
 
   void vehicles(report::HtmlPage& page) const {

@@ -127,8 +127,7 @@ std::string doubt_of(const EarthField& field) {
   if (field.source == EarthField::Source::fitted) {
     return "no fix and no --field: the field of the Earth is fitted to the compass's readings. Headings are "
            "magnetic, declination is unknown, and scale errors or vertical iron of the compass may be taken for "
-           "the "
-           "field";
+           "the field";
   }
   if (field.is_extrapolated()) {
     return "the World Magnetic Model is valid from 2025 to 2029; before and after, it may be degrees off (--field "

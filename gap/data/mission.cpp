@@ -65,10 +65,10 @@ double last_s(const std::vector<Reading>& readings) {
 void expect_instruments_at_origin(const config::Settings& settings, const std::filesystem::path& file) {
   for (const config::PortSettings& port : settings.ports) {
     if (port.mounting.position_m == std::array<double, 3>{}) continue;
-    throw record::BadRecording(fmt::format(
-        "{}: port.{}.mounting.position_m is not 0: the diagnosis has no model of an instrument away from the "
-        "vehicle's origin",
-        file.string(), port.name));
+    throw record::BadRecording(
+        fmt::format("{}: port.{}.mounting.position_m is not 0: the diagnosis has no model of an instrument away "
+                    "from the vehicle's origin",
+                    file.string(), port.name));
   }
 }
 

@@ -81,8 +81,8 @@ std::string separating_sentence(const NextMission& next) {
   const auto is_open = [](const PlannedSet& set) { return set.probability >= kProbableFrom; };
   if (std::count_if(next.sets.begin(), next.sets.end(), is_open) < 2) {
     return fmt::format(
-        "The recordings leave one set probable, {} ({:.2f}). This mission of {:.1f} minutes tests it "
-        "against the others: it stays the answer, if it is true, with probability {:.2f}.",
+        "The recordings leave one set probable, {} ({:.2f}). This mission of {:.1f} minutes tests it against the "
+        "others: it stays the answer, if it is true, with probability {:.2f}.",
         words_of(next.sets.front().effects), next.probability_now, next.minutes(), next.probability_exact);
   }
   std::string closest;
@@ -92,25 +92,24 @@ std::string separating_sentence(const NextMission& next) {
   }
   if (next.decides) {
     return fmt::format(
-        "This mission of {:.1f} minutes decides between {} sets of effects: the answer is exact with "
-        "probability {:.2f}.{}",
+        "This mission of {:.1f} minutes decides between {} sets of effects: the answer is exact with probability "
+        "{:.2f}.{}",
         next.minutes(), next.sets.size(), next.probability_exact, closest);
   }
   return fmt::format(
-      "No mission found within the limits decides between the {} sets of effects. This one of {:.1f} "
-      "minutes separates them best: the answer is exact with probability {:.2f}.{}",
+      "No mission found within the limits decides between the {} sets of effects. This one of {:.1f} minutes "
+      "separates them best: the answer is exact with probability {:.2f}.{}",
       next.sets.size(), next.minutes(), next.probability_exact, closest);
 }
 
 std::string covering_sentence(const NextMission& next) {
   if (next.newly_covered.empty()) {
     return "A cause outside the library is likely, and the recordings have seen all regimes that the limits "
-           "allow: "
-           "no mission within them shows more.";
+           "allow: no mission within them shows more.";
   }
   return fmt::format(
-      "A cause outside the library is likely. This mission of {:.1f} minutes visits {} regimes that no "
-      "recording has seen: {}{}.",
+      "A cause outside the library is likely. This mission of {:.1f} minutes visits {} regimes that no recording "
+      "has seen: {}{}.",
       next.minutes(), next.newly_covered.size(),
       fmt::join(next.newly_covered.begin(),
                 next.newly_covered.begin() +

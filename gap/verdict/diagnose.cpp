@@ -191,8 +191,7 @@ std::string hidden_cause_text(const FoundEffects& result, const Library& library
 std::string other_vehicle_text(double least_ratio) {
   return fmt::format(
       "all channels of the motion are off by at least {:.1f} times what vehicles without a gap show: this looks "
-      "like "
-      "the recording of another vehicle",
+      "like the recording of another vehicle",
       least_ratio);
 }
 

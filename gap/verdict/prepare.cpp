@@ -91,8 +91,7 @@ void Preparation::remark_on(const Prepared& prepared, const std::string& name, D
   const auto pauses = interruptions(mission);
   for (const Interruption& each : pauses) {
     remark(fmt::format(
-        "the {} is silent from {:.0f} s to {:.0f} s ({:.0f} % of the recording): judged by the others "
-        "there",
+        "the {} is silent from {:.0f} s to {:.0f} s ({:.0f} % of the recording): judged by the others there",
         each.what, each.from_s, each.until_s, 100 * (each.until_s - each.from_s) / mission.duration_s));
   }
   if (is_first) {
@@ -126,16 +125,14 @@ bool Preparation::can_obey(const CommandCheck& check, const std::string& name, D
   if (!check.delay_s && check.correlation) {
     answer.remarks.push_back(
         fmt::format("{}: the vehicle's turns do not follow these commands (correlation {:.2f} at best), and no "
-                    "report says what "
-                    "the fins did",
+                    "report says what the fins did",
                     name, *check.correlation));
     return false;
   }
   if (!check.delay_s || std::abs(*check.delay_s) < kLateUnreported_s) return true;
   answer.remarks.push_back(
       fmt::format("{}: the vehicle turns {:.2f} s {} than these commands say (cross-correlation of its yaw rate), "
-                  "and no report "
-                  "says what the fins did",
+                  "and no report says what the fins did",
                   name, std::abs(*check.delay_s), *check.delay_s > 0 ? "later" : "earlier"));
   return false;
 }
@@ -147,8 +144,7 @@ void Preparation::replay_orders(Prepared& prepared, const std::string& name, Dia
     if (prepared.replay->actuators().orders().misfit() > kMostCommandMisfit) {
       answer.remarks.push_back(
           fmt::format("{}: the fins moved by other orders than those recorded (misfit {:.0f} times the noise of "
-                      "the reports, at "
-                      "most {:.0f})",
+                      "the reports, at most {:.0f})",
                       name, prepared.replay->actuators().orders().misfit(), kMostCommandMisfit));
       orders_s.clear();
       prepared.mission.ordered_fins_rad.clear();

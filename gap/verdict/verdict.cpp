@@ -121,8 +121,7 @@ bool add_strengths(const Grounds& grounds, std::vector<std::string>& reasons) {
     if (size > kLargestStrength) {
       is_too_strong = true;
       reasons.push_back(fmt::format(
-          "{} would have to be {} times as strong as usual, which speaks for something "
-          "else that looks like it",
+          "{} would have to be {} times as strong as usual, which speaks for something else that looks like it",
           grounds.library[effect].name,
           size < kLargestReported ? fmt::format("{:.1f}", size) : fmt::format("over {:.0f}", kLargestReported)));
     }

@@ -75,11 +75,10 @@ constexpr std::array<RepresentationRow, 34> kRepresentations{{
         "SIM_MAG_ALY = 10 (turned field - field), mGauss, north, east, down, where the recording was made", exact,
         "MagneticVector of the MagnetometerSensor: the turned field, north, west, up", exact,
         "rpy of the compass, rad: its heading less the angle"),
-    simulator_row(
-        "depth_scale", none,
-        "the pressure sensor has no scale; BARO_SPEC_GRAV = 1 / (1 + scale), a setting of the autopilot itself, "
-        "reads alike",
-        none, kDepthNoise, none, kPressureNoise),
+    simulator_row("depth_scale", none,
+                  "the pressure sensor has no scale; BARO_SPEC_GRAV = 1 / (1 + scale), a setting of the autopilot "
+                  "itself, reads alike",
+                  none, kDepthNoise, none, kPressureNoise),
     simulator_row("depth_temperature", none, "the pressure sensor under water has no temperature", none,
                   kDepthNoise, none, kPressureNoise),
     simulator_row("elevator_offset", none, kNoFins, none,
@@ -111,11 +110,10 @@ constexpr std::array<RepresentationRow, 34> kRepresentations{{
     simulator_row("gyro_scale", exact,
                   "SIM_GYRn_SCALE = 100 scale, percent: gyro A's z in 1, gyro B's in 2, x and y in both", none,
                   kNoSuchSensor, none, kStonefishGyro),
-    simulator_row(
-        "gyro_temperature", approximate,
-        "SIM_IMUTn_GYR1 = 1e6 coefficient, rad/s/C, about 15 C; SIM_IMUT_START, END, TCONST: the warm-up of "
-        "navcal's simulator in water of 15 C, not the recorded one",
-        none, kNoSuchSensor, none, kStonefishGyro),
+    simulator_row("gyro_temperature", approximate,
+                  "SIM_IMUTn_GYR1 = 1e6 coefficient, rad/s/C, about 15 C; SIM_IMUT_START, END, TCONST: the "
+                  "warm-up of navcal's simulator in water of 15 C, not the recorded one",
+                  none, kNoSuchSensor, none, kStonefishGyro),
     simulator_row("hard_iron", exact, "SIM_MAGn_OFS = -10 field, mGauss; SITL takes it off (n = 1, 2, 3)", none,
                   kMagnetometer, none, kHeadingOnly),
     simulator_row("imu_latency", none, "the inertial sensors have no delay", none, kNoDelay, none, kNoDelay),
@@ -123,11 +121,10 @@ constexpr std::array<RepresentationRow, 34> kRepresentations{{
                   kHeadingOnly),
     simulator_row("magnetic_hysteresis", none, "the compass has no memory", none, kMagnetometer, none,
                   kHeadingOnly),
-    simulator_row(
-        "motor_field", approximate,
-        "SIM_MAG_MOT = 10 slope, mGauss/A, before soft iron; acts where the physics report a current: the JSON "
-        "interface does, SITL's own submarine does not",
-        none, kMagnetometer, none, kHeadingOnly),
+    simulator_row("motor_field", approximate,
+                  "SIM_MAG_MOT = 10 slope, mGauss/A, before soft iron; acts where the physics report a current: "
+                  "the JSON interface does, SITL's own submarine does not",
+                  none, kMagnetometer, none, kHeadingOnly),
     simulator_row("soft_iron", exact,
                   "SIM_MAGn_DIA, SIM_MAGn_ODI = inverse of 1 + S; SITL inverts it (n = 1, 2, 3)", none,
                   kMagnetometer, none, kHeadingOnly),

@@ -183,8 +183,7 @@ SimulatorFile stonefish_scenario(const CorrectedModel& model) {
   std::vector<std::string> head = about(model, transfer);
   head.emplace_back(
       "Elements of a scenario, to be taken over into yours: names of links, thrusters and rudders are examples, "
-      "and "
-      "geometry, materials and looks are missing.");
+      "and geometry, materials and looks are missing.");
   std::string xml = "<?xml version=\"1.0\"?>\n";
   for (const auto& texts : {head, effect_texts}) {
     for (const std::string& paragraph : texts) xml += xml_comment(as_ascii(paragraph));

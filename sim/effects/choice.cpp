@@ -62,8 +62,8 @@ std::optional<std::string> refusal_for_layout(const EffectDescription& effect) {
     return fmt::format("{} grows with the motor's current, which a layout does not state", effect.name);
   if (effect.place != EffectPlace::vehicle || effect.name == "water_current") return std::nullopt;
   return fmt::format(
-      "{} belongs to the vehicle of one propeller and three fins; a layout has the effects of "
-      "--list-effects with a column \"of\"",
+      "{} belongs to the vehicle of one propeller and three fins; a layout has the effects of --list-effects with "
+      "a column \"of\"",
       effect.name);
 }
 

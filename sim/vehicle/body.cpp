@@ -24,9 +24,8 @@ void check_stable(const Body& body, double time_s) {
   if (why == nullptr) return;
   const auto& v = body.velocity;
   throw UnstableVehicle(fmt::format(
-      "the vehicle {} at t = {:.2f} s: roll {:.1f}, pitch {:.1f}, yaw {:.1f} deg, u, v, w = {:.3g}, "
-      "{:.3g}, {:.3g} "
-      "m/s, p, q, r = {:.3g}, {:.3g}, {:.3g} rad/s, depth {:.2f} m",
+      "the vehicle {} at t = {:.2f} s: roll {:.1f}, pitch {:.1f}, yaw {:.1f} deg, u, v, w = {:.3g}, {:.3g}, "
+      "{:.3g} m/s, p, q, r = {:.3g}, {:.3g}, {:.3g} rad/s, depth {:.2f} m",
       why, time_s, body.euler_rad[0] * base::kDegreesPerRadian, body.euler_rad[1] * base::kDegreesPerRadian,
       body.euler_rad[2] * base::kDegreesPerRadian, v[0], v[1], v[2], v[3], v[4], v[5], body.position_m.z()));
 }

@@ -226,8 +226,8 @@ std::optional<std::string> DropCount::report(std::int64_t now_ns) {
   // A clock that stepped back must not keep the report back.
   if (reported_ns_ && now_ns >= *reported_ns_ && now_ns - *reported_ns_ < kBetweenReports_ns) return std::nullopt;
   std::string words = fmt::format(
-      "{} messages were dropped from {} to {}, because this program did not read them in "
-      "time; {} since it connected",
+      "{} messages were dropped from {} to {}, because this program did not read them in time; {} since it "
+      "connected",
       since_report_, base::utc_text(first_ns_), base::utc_text(last_ns_), total_);
   since_report_ = 0;
   reported_ns_ = now_ns;

@@ -40,15 +40,13 @@ void check_inertia(const config::LayoutBody& body, std::vector<Oddity>& odd) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double square = body.inertia_kg_m2[i] / body.mass_kg;
     if (square > most[i])
-      odd.push_back(
-          {key, fmt::format("the radius of gyration about {} is {:.3g} m; with all mass at the corners of "
-                            "size_m it would be {:.3g} m",
-                            kAxes[i], std::sqrt(square), std::sqrt(most[i]))});
+      odd.push_back({key, fmt::format("the radius of gyration about {} is {:.3g} m; with all mass at the corners "
+                                      "of size_m it would be {:.3g} m",
+                                      kAxes[i], std::sqrt(square), std::sqrt(most[i]))});
     if (square < 1e-3 * most[i])
-      odd.push_back(
-          {key, fmt::format("the radius of gyration about {} is {:.3g} m in a body whose corners are {:.3g} "
-                            "m away: a unit off by a thousand?",
-                            kAxes[i], std::sqrt(std::max(square, 0.0)), std::sqrt(most[i]))});
+      odd.push_back({key, fmt::format("the radius of gyration about {} is {:.3g} m in a body whose corners are "
+                                      "{:.3g} m away: a unit off by a thousand?",
+                                      kAxes[i], std::sqrt(std::max(square, 0.0)), std::sqrt(most[i]))});
   }
 }
 
@@ -62,20 +60,17 @@ void check_floating(const config::Layout& layout, std::vector<Oddity>& odd) {
   const double ratio = layout.body.buoyancy_N / weight;
   constexpr double kMuch = 0.05, kUnits = 20;
   if (ratio > kUnits || ratio < 1 / kUnits) {
-    odd.push_back(
-        {"body.buoyancy_N", fmt::format("buoyancy is {:.3g} times the weight of {:.4g} N: a unit off by a "
-                                        "thousand in mass, volume or buoyancy?",
-                                        ratio, weight)});
+    odd.push_back({"body.buoyancy_N", fmt::format("buoyancy is {:.3g} times the weight of {:.4g} N: a unit off by "
+                                                  "a thousand in mass, volume or buoyancy?",
+                                                  ratio, weight)});
   } else if (high_N < -kMuch * weight) {
-    odd.push_back(
-        {"body.buoyancy_N", fmt::format("it cannot float: net buoyancy is {:.4g} N at most, {:.1f} % of the "
-                                        "weight",
-                                        high_N, 100 * high_N / weight)});
+    odd.push_back({"body.buoyancy_N",
+                   fmt::format("it cannot float: net buoyancy is {:.4g} N at most, {:.1f} % of the weight", high_N,
+                               100 * high_N / weight)});
   } else if (low_N > kMuch * weight) {
-    odd.push_back(
-        {"body.buoyancy_N", fmt::format("it cannot sink: net buoyancy is {:.4g} N at least, {:.1f} % of the "
-                                        "weight",
-                                        low_N, 100 * low_N / weight)});
+    odd.push_back({"body.buoyancy_N",
+                   fmt::format("it cannot sink: net buoyancy is {:.4g} N at least, {:.1f} % of the weight", low_N,
+                               100 * low_N / weight)});
   }
 }
 
@@ -113,16 +108,14 @@ void check_added_mass(const config::Layout& layout, std::vector<Oddity>& odd) {
                                                     skewed.cwiseAbs().maxCoeff())});
   const double least = eigenvalues_of(added)[0];
   if (least < -1e-9 * std::max(greatest, 1e-9))
-    odd.push_back(
-        {"added_mass.matrix", fmt::format("its smallest eigenvalue is {:.4g}: water would drive the vehicle; "
-                                          "the file wants -X_udot, which is positive",
-                                          least)});
+    odd.push_back({"added_mass.matrix", fmt::format("its smallest eigenvalue is {:.4g}: water would drive the "
+                                                    "vehicle; the file wants -X_udot, which is positive",
+                                                    least)});
   const double heaviest = added.diagonal().head<3>().maxCoeff();
   if (heaviest > 20 * layout.body.mass_kg)
-    odd.push_back(
-        {"added_mass.matrix", fmt::format("added mass of {:.4g} kg is {:.0f} times the mass: a unit off by a "
-                                          "thousand?",
-                                          heaviest, heaviest / layout.body.mass_kg)});
+    odd.push_back({"added_mass.matrix",
+                   fmt::format("added mass of {:.4g} kg is {:.0f} times the mass: a unit off by a thousand?",
+                               heaviest, heaviest / layout.body.mass_kg)});
 }
 
 void check_directions(const config::Layout& layout, std::vector<Oddity>& odd) {

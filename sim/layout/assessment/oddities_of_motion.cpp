@@ -54,9 +54,9 @@ void check_thrust(const config::Layout& layout, const Assessment& found, std::ve
   const double force_N = std::abs(found.ahead.back().force_N);
   if (force_N > 10 * layout.weight_N())
     odd.push_back(
-        {"thruster", fmt::format("full thrust ahead of {:.4g} N is {:.0f} times the weight: a unit off by a "
-                                 "thousand?",
-                                 force_N, force_N / layout.weight_N())});
+        {"thruster",
+         fmt::format("full thrust ahead of {:.4g} N is {:.0f} times the weight: a unit off by a thousand?",
+                     force_N, force_N / layout.weight_N())});
   const double speed = found.ahead.back().speed_m_s.value_or(0);
   if (speed > 10)
     odd.push_back({"thruster",

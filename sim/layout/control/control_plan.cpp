@@ -216,10 +216,10 @@ class ControlPlanner {
     }
     if (plan_.depth == DepthControl::pitch &&
         !holds_level(vehicle_, allocator_, plan_.commanded, plan_.greatest_m_s))
-      refuse(fmt::format(
-          "the moment of pitch does not hold a level course at {:.2f} m/s, the greatest speed, against "
-          "{:+.3g} N of net buoyancy: change body.buoyancy_N or body.mass_kg",
-          plan_.greatest_m_s, -net_weight_N()));
+      refuse(
+          fmt::format("the moment of pitch does not hold a level course at {:.2f} m/s, the greatest speed, "
+                      "against {:+.3g} N of net buoyancy: change body.buoyancy_N or body.mass_kg",
+                      plan_.greatest_m_s, -net_weight_N()));
     if (!plan_.commanded[kYaw]) need("yaw", needs_.yaw);
     if (!plan_.commanded[kPitch]) need("pitch", needs_.pitch);
     const auto& surfaces = vehicle_.layout().surfaces;

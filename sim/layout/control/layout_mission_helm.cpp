@@ -244,8 +244,8 @@ std::string LayoutMissionHelm::remark() const {
   }
   if (!plan_.commanded[0] || fastest_m_s <= plan_.greatest_m_s) return {};
   return fmt::format(
-      "{}: speeds are held at {:.2f} m/s, the most that the autopilot trusts this layout with; the mission "
-      "asks for up to {:.2f} m/s",
+      "{}: speeds are held at {:.2f} m/s, the most that the autopilot trusts this layout with; the mission asks "
+      "for up to {:.2f} m/s",
       vehicle_.layout().name, plan_.greatest_m_s, fastest_m_s);
 }
 
