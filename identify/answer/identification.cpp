@@ -183,7 +183,7 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
             quantity, errors.after_s, *fitted, unit, *file));
     };
     add("velocity", "m/s", &PredictionErrors::velocity_m_s, 0);
-    for (const std::size_t horizon : {1, 2}) {
+    for (const std::size_t horizon : {1U, 2U}) {
       if (of.is_steered) break;  // they judge its controller
       add("position", "m", &PredictionErrors::position_m, horizon);
       add("heading", "deg", &PredictionErrors::heading_rad, horizon, base::kDegreesPerRadian);
