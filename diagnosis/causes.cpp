@@ -2,6 +2,7 @@
 #include "diagnosis/causes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -126,6 +127,20 @@ void add_effects(const config::Layout& layout, const std::set<std::string, std::
   }
 }
 
+/// Whether a gyro's axis turned so little that another, askew by a degree, shows as much as this error of its
+/// scale.
+bool hardly_turned(const RecordedMotion& recording, Nuisance scale, double error) {
+  const auto variance = [&](std::size_t axis) {
+    double count = 0, sum = 0, squares = 0;
+    for (const identify::Reading& one : recording.channels.at(static_cast<std::size_t>(Channel::rate_x) + axis))
+      ++count, sum += one.value, squares += one.value * one.value;
+    return count > 0 ? squares / count - sum * sum / (count * count) : 0;
+  };
+  const auto axis = static_cast<std::size_t>(scale) - static_cast<std::size_t>(Nuisance::rate_scale_x);
+  const double own = variance(axis), others = variance(0) + variance(1) + variance(2) - own;
+  return std::pow(base::kRadiansPerDegree, 2) * others > error * error * own;
+}
+
 void add_instrument_errors(const RecordedMotion& recording, const std::set<std::string, std::less<>>& excluded,
                            CauseLibrary& library) {
   const auto first = static_cast<Eigen::Index>(library.parameters.size());
@@ -145,6 +160,10 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
                 .parameters = {},
                 .is_instrument = true};
     for (const InstrumentParameter& parameter : error.parameters) {
+      if (error.name == "gyro_scale" && hardly_turned(recording, parameter.nuisance, parameter.typical)) {
+        library.not_judged.push_back(std::string(parameter.name) + " was not judged: the axis hardly turned");
+        continue;
+      }
       cause.parameters.push_back({.name = std::string(parameter.name),
                                   .typical = parameter.typical,
                                   .per_unit = parameter.per_unit,
@@ -152,7 +171,7 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
                                   .high = kLargestStrength * parameter.typical,
                                   .column = first + static_cast<Eigen::Index>(parameter.nuisance)});
     }
-    library.causes.push_back(std::move(cause));
+    if (!cause.parameters.empty()) library.causes.push_back(std::move(cause));
   }
 }
 

@@ -168,15 +168,15 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
                                  of.by_velocity ? "velocity after 1 s, m/s" : "position after 10 s, m");
     const auto add = [&](std::string_view quantity, std::string_view unit,
                          PredictionErrors::Row PredictionErrors::*row, std::size_t horizon, double scale = 1) {
-      const auto in = [&](const Prediction& all, Predictor by) {
-        const std::optional<double>& error = (all.errors.at(horizon).*row).at(static_cast<std::size_t>(by));
+      const PredictionErrors& errors = of.errors.at(horizon);
+      const auto in = [&](const PredictionErrors& all, Predictor by) {
+        const std::optional<double>& error = (all.*row).at(static_cast<std::size_t>(by));
         return error ? std::optional(scale * *error) : std::nullopt;
       };
-      const auto fitted = in(of, Predictor::layout), file = in(before, Predictor::layout);
-      if (!fitted || !file || of.errors.at(horizon).starts < kFewestStarts) return;
-      const PredictionErrors& errors = of.errors.at(horizon);
+      const auto fitted = in(errors, Predictor::layout), file = in(before.errors.at(horizon), Predictor::layout);
+      if (!fitted || !file || errors.starts < kFewestStarts) return;
       answer.predictions.push_back(
-          {quantity, unit, errors.after_s, errors.starts, *file, *fitted, in(of, Predictor::linear)});
+          {quantity, unit, errors.after_s, errors.starts, *file, *fitted, in(errors, Predictor::linear)});
       if (*fitted > kFarther * *file)
         answer.warnings.push_back(fmt::format(
             "held out, the {} after {:.0f} s is off by {:.3g} {}, by {:.3g} with the numbers of the file",

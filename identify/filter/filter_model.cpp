@@ -17,6 +17,25 @@ double difference_of(const ChannelReading& reading, double a, double b) {
   return describe(reading.channel).is_angle ? base::wrapped(a - b) : a - b;
 }
 
+/// The rows of F x but for the disturbance, for each column of x.
+template <int columns>
+Eigen::Matrix<double, kStates, columns> motion(const StepDerivatives& by, double half_step_s, double tilt_left,
+                                               const Eigen::Matrix<double, kFilterStates, columns>& x) {
+  Eigen::Matrix<double, kStates, columns> end;
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const sim::Vector6 kick = half_step_s * x.col(j).template tail<6>();
+    const sim::Vector6 velocity = x.col(j).template segment<6>(kVelocity) + kick;
+    // One expression, so that its sums stay in registers.
+    end.col(j) = x(kEuler, j) * by.col(0) + x(kEuler + 1, j) * by.col(1) + x(kEuler + 2, j) * by.col(2) +
+                 velocity[0] * by.col(3) + velocity[1] * by.col(4) + velocity[2] * by.col(5) +
+                 velocity[3] * by.col(6) + velocity[4] * by.col(7) + velocity[5] * by.col(8);
+    end.col(j).template head<3>() += x.col(j).template head<3>();
+    end.col(j).template segment<6>(kVelocity) += kick;
+    end.col(j).template segment<2>(kTilt) += tilt_left * x.col(j).template segment<2>(kTilt);
+  }
+  return end;
+}
+
 }  // namespace
 
 FilterModel::FilterModel(const sim::LayoutVehicle& vehicle, std::shared_ptr<const ActuatorTrajectory> actuators,
@@ -92,35 +111,15 @@ Transition::Transition(const StepDerivatives& derivatives, double tilt_lag_s, do
       tilt_left_(tilt_lag_s > 0 ? std::exp(-step_s / tilt_lag_s) : 0),
       disturbance_left_(std::exp(-step_s / tau_s)) {}
 
-template <int columns>
-Eigen::Matrix<double, kStates, columns> Transition::motion(
-    const Eigen::Matrix<double, kFilterStates, columns>& x) const {
-  const StepDerivatives& by = derivatives_;
-  Eigen::Matrix<double, kStates, columns> end;
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    const sim::Vector6 kick = half_step_s_ * x.col(j).template tail<6>();
-    const sim::Vector6 velocity = x.col(j).template segment<6>(kVelocity) + kick;
-    // One expression, so that its sums stay in registers.
-    end.col(j) = x(kEuler, j) * by.col(0) + x(kEuler + 1, j) * by.col(1) + x(kEuler + 2, j) * by.col(2) +
-                 velocity[0] * by.col(3) + velocity[1] * by.col(4) + velocity[2] * by.col(5) +
-                 velocity[3] * by.col(6) + velocity[4] * by.col(7) + velocity[5] * by.col(8);
-    end.col(j).template head<3>() += x.col(j).template head<3>();
-    end.col(j).template segment<6>(kVelocity) += kick;
-    end.col(j).template segment<2>(kTilt) += tilt_left_ * x.col(j).template segment<2>(kTilt);
-  }
-  return end;
-}
-
 FilterState Transition::operator*(const FilterState& x) const {
-  FilterState end;
-  end << motion<1>(x), disturbance_left_ * x.tail<6>();
-  return end;
+  return (FilterState() << motion<1>(derivatives_, half_step_s_, tilt_left_, x), disturbance_left_ * x.tail<6>())
+      .finished();
 }
 
 FilterMatrix Transition::on_both_sides_of(const FilterMatrix& covariance) const {
-  const auto across = motion<kFilterStates>(covariance);
+  const auto across = motion<kFilterStates>(derivatives_, half_step_s_, tilt_left_, covariance);
   const Eigen::Matrix<double, kStates, kStates> moved =
-      motion<kStates>(Eigen::Matrix<double, kFilterStates, kStates>(across.transpose()));
+      motion<kStates>(derivatives_, half_step_s_, tilt_left_, across.transpose());
   FilterMatrix all;
   all.topLeftCorner<kStates, kStates>() = (moved + moved.transpose()) / 2;
   all.topRightCorner<kStates, 6>() = disturbance_left_ * across.rightCols<6>();

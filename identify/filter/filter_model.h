@@ -76,11 +76,6 @@ class Transition {
   [[nodiscard]] FilterMatrix on_both_sides_of(const FilterMatrix& covariance) const;
 
  private:
-  /// The rows of F x but for the disturbance.
-  template <int columns>
-  [[nodiscard]] Eigen::Matrix<double, kStates, columns> motion(
-      const Eigen::Matrix<double, kFilterStates, columns>& x) const;
-
   const StepDerivatives& derivatives_;
   double half_step_s_, tilt_left_, disturbance_left_;
 };
