@@ -63,7 +63,6 @@ void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
 }
 
 void plan_next(const GapNextOptions& options) {
-  (void)gap::quantities_of(options.asked.without);
   const config::MissionLimits limits = limits_of(options);
   expect_writable(options);
   if (layout_of(options.asked)) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <sstream>
+#include <unordered_map>
 
 #include "protocols/crc16.h"
 #include "protocols/decimal.h"
@@ -11,7 +13,8 @@
 
 namespace navcal::protocols::ubx {
 
-const char* message_rows();  // ubx_messages.txt, which the build puts into the program
+/// Rows of ubx_messages.txt: codes and names of generations 5 to 10; none that a FrameId cannot hold.
+const char* message_rows();
 
 FrameId id_of(MessageCode code) {
   if (const std::string_view name = name_of(code); !name.empty()) return FrameId(name);
@@ -82,13 +85,15 @@ std::vector<std::uint8_t> encode_frame(MessageCode code, Bytes payload) {
 }
 
 std::string_view name_of(MessageCode code) {
-  static const std::string_view kRows = message_rows();
-  std::string begin = "\n";
-  append_hex(begin, code, 4);
-  const std::size_t found = kRows.find(begin + ' ');
-  if (found == std::string_view::npos) return {};
-  const std::string_view name = kRows.substr(found + begin.size() + 1);
-  return name.substr(0, name.find('\n'));
+  static const auto kNames = [] {
+    std::unordered_map<MessageCode, std::string> names;
+    std::istringstream rows(message_rows());
+    std::string name;
+    for (MessageCode row = 0; rows >> std::hex >> row >> name;) names[row] = name;
+    return names;
+  }();
+  const auto found = kNames.find(code);
+  return found == kNames.end() ? std::string_view() : found->second;
 }
 
 }  // namespace navcal::protocols::ubx

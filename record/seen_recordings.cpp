@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "config/roles.h"
 #include "record/recording.h"
@@ -47,13 +46,16 @@ void SeenRecordings::read(Pieces& into) {
   const auto recording = Recording::open(into.file);
   const auto& ports = recording->settings().ports;
   std::vector<PieceCutter> cutters(ports.size());
+  using config::Role;
+  std::vector<bool> counts;
+  for (const config::PortSettings& port : ports)
+    counts.push_back(can_deliver(port, Role::rates) || can_deliver(port, Role::field) ||
+                     can_deliver(port, Role::heading));
   std::optional<std::int64_t> first_ns;
   while (const auto entry = recording->next()) {
     const auto* raw = std::get_if<RawRead>(&*entry);
     if (raw == nullptr || raw->direction != Direction::received || raw->port >= ports.size()) continue;
-    constexpr std::array kRoles{config::Role::rates, config::Role::field, config::Role::heading};
-    if (std::ranges::none_of(kRoles, [&](auto role) { return config::can_deliver(ports[raw->port], role); }))
-      continue;
+    if (!counts[raw->port]) continue;
     if (!first_ns) first_ns = raw->time_ns;
     into.duration_s = static_cast<double>(raw->time_ns - *first_ns) * 1e-9;
     PieceCutter& cutter = cutters[raw->port];

@@ -86,47 +86,40 @@ std::vector<AuditChange> Audit::changes() const {
 
 namespace {
 
-constexpr double kLeastField_uT = 10, kMostField_uT = 140;  ///< of a field in the right unit, with strong iron
-
 /// Leaves out the consequences of what is wrong with rates, forces or axes: they have one cause.
 void leave_out_consequences(std::vector<Finding>& findings, const AuditedLog& log) {
-  const auto leave_out = [&](std::string_view words, auto is_cause, std::string_view also = {},
-                             std::string_view delays = "delay.") {
+  constexpr double kLeastField_uT = 10, kMostField_uT = 140;  // of a field in the right unit, with strong iron
+  constexpr std::string_view kAll[]{"gyro.bias",     "gyro.scale",   "compass.step",
+                                    "compass.motor", "compass.iron", "compass.heading"};
+  const auto leave_out = [&](std::string_view words, std::initializer_list<std::string_view> also, auto is_cause) {
     const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
       return (finding.certainty <= Certainty::likely || finding.name == "sampling.times") && is_cause(finding);
     });
     if (found == findings.end()) return;
     const std::string why = fmt::format("{}: {}", words, found->sentence), todo = found->todo;
     for (Finding& finding : findings) {
-      for (const std::string_view name :
-           std::initializer_list<std::string_view>{"gyro.bias", "gyro.scale", "compass.step", "compass.motor",
-                                                   "compass.iron", "compass.heading", delays, also}) {
-        if (!name.empty() && finding.name.starts_with(name))
-          finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, todo);
-      }
+      const auto is_of = [&](std::string_view name) { return finding.name.starts_with(name); };
+      if (std::ranges::any_of(kAll, is_of) || std::ranges::any_of(also, is_of))
+        finding = Finding{finding.name, finding.title, finding.channel}.cannot(why, todo);
     }
   };
-  leave_out(
-      "The rates are not what they should be",
-      [](const Finding& of) {
-        return of.name.starts_with("convention.") && (of.channel.starts_with("rate") || of.channel == "body");
-      },
-      "compass.axes");
-  leave_out(
-      "The times are not known", [](const Finding& of) { return of.name == "sampling.times"; }, "force.vibration");
-  leave_out("The axes of the field are not what they should be",
+  leave_out("The rates are not what they should be", {"delay.", "compass.axes"}, [](const Finding& of) {
+    return of.name.starts_with("convention.") && (of.channel.starts_with("rate") || of.channel == "body");
+  });
+  leave_out("The times are not known", {"delay.", "force.vibration"},
+            [](const Finding& of) { return of.name == "sampling.times"; });
+  leave_out("The axes of the field are not what they should be", {"delay."},
             [](const Finding& of) { return of.name == "compass.axes"; });
   // The calibrators count with the noise of a field in microtesla.
-  leave_out("The size of the field is not what it should be", [&](const Finding& of) {
+  leave_out("The size of the field is not what it should be", {"delay."}, [&](const Finding& of) {
     return of.name == "compass.size" && of.channel == log.compass &&
            (of.value < kLeastField_uT || of.value > kMostField_uT);
   });
   // The delay of a field behind the rates needs no tilt.
-  leave_out(
-      "The forces that tell the tilt are disturbed",
-      [](const Finding& of) { return of.name.starts_with("force."); }, {},
-      log.all("field_x").empty() ? "delay." : "delay.course");
-  // Of several steps of the field, one says why.
+  leave_out("The forces that tell the tilt are disturbed",
+            {log.all("field_x").empty() ? "delay." : "delay.course"},
+            [](const Finding& of) { return of.name.starts_with("force."); });
+  // Several steps of the field need the reason once.
   const auto is_again = [](const Finding& a, const Finding& b) {
     return b.certainty == Certainty::cannot_say &&
            std::tie(a.name, a.channel, a.sentence) == std::tie(b.name, b.channel, b.sentence);

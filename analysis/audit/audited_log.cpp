@@ -288,8 +288,7 @@ AuditedLog load_audited(const AuditRequest& request, const KeepGoing& keep_going
   log.rest = quiet_parts_of(log.channels, log.duration_s).intervals;
   if (request.also && !log.is_partial) request.also(file);
   if (log.is_partial || log.compass.empty()) return log;
-  const auto rates = log.all("rate_x");
-  if (!rates.empty() && rates.front()->port != log.compass) log.compass_lag_s = field_lag_s(log, log.compass);
+  log.compass_lag_s = field_lag_s(log, log.compass);
   const auto state = calibrate(log, log.whole, file, request.window, keep_going, "calibrating", {});
   // The field of a steady current is no iron: where the motor's field is known, the rest is learned without it.
   if (!state.empty() && !log.is_partial)

@@ -205,6 +205,7 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
   errors.is_absolute =
       is_magnetic || (log.earth && log.earth->declination_source != pipeline::EarthField::Source::none);
   const double declination_rad = is_magnetic || !log.earth ? 0 : log.earth->declination_rad;
+  const double late_s = heading.port == log.compass ? log.compass_lag_s : 0;
   const auto own = log.heading_std_deg.find(heading.port);
   double squares = 0, count = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -215,7 +216,6 @@ std::optional<HeadingErrors> heading_errors(const AuditedLog& log, const Recorde
       errors.reference_std_rad = std::max(errors.reference_std_rad, std->std);
     for (const TiltedField& field : tilted_fields(log.halves.at(half).samples, 0)) {
       const double time_s = base::seconds(field.utc_ns - log.begin_utc_ns);
-      const double late_s = heading.port == log.compass ? log.compass_lag_s : 0;
       const auto stated_deg = value_at(heading.series, time_s + late_s, kMostApart_s);
       if (!stated_deg) continue;
       const double reference_rad = field.heading_rad(*halves.at(1 - half)) + declination_rad;
@@ -260,6 +260,8 @@ std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& po
 
 double field_lag_s(const AuditedLog& log, const std::string& port) {
   constexpr double kStep_s = 0.05, kMost_s = 2, kSharper = 0.7;
+  const auto rates = log.all("rate_x");
+  if (rates.empty() || rates.front()->port == port) return 0;
   const std::vector<FieldTurn> turns = turns_of(log);
   const auto left_uT = [&](double lag_s) {
     const auto at_lag = with_fields(turns, log, port, lag_s);

@@ -51,8 +51,8 @@ struct FieldAxes {
 [[nodiscard]] std::optional<FieldAxes> field_axes(const AuditedLog& log, const std::string& port);
 
 /// Delay of a field behind the rates, 0 to 2 s in steps of 0.05 s, with which its changes follow them best; 0
-/// where that does not leave a third less of them than no delay does. Large delays are outside of the calibrators'
-/// models.
+/// where that does not leave a third less of them than no delay does, or the port sends the rates. Large delays
+/// are outside of the calibrators' models.
 [[nodiscard]] double field_lag_s(const AuditedLog& log, const std::string& port);
 
 /// The fields of two ports at the times of the first.

@@ -86,7 +86,7 @@ class Channels {
   std::vector<Channel*> ros_;
   Deriver deriver_;
   record::SampleMessages samples_;
-  // Of the newest record, which `made_from_` (topic and device) and `made_serial_` name.
+  // Made of the newest record: `made_from_` is its topic and device, `made_serial_` its number.
   std::vector<record::RosMessage> ros_made_;  ///< as in a bag of ROS 2; none while UTC is unknown
   std::optional<Derived> derived_;            ///< once a viewer has asked
   std::string made_from_;
