@@ -10,7 +10,10 @@
 namespace navcal::identify {
 namespace {
 
-constexpr double kDifference = 1e-5;  ///< step of the finite differences, SI
+/// Step of a difference, SI: the standard error of the state, for a slope where the vehicle may be. At rest drag
+/// has none, and a filter that does not know the speed would take what it does to the accelerometers for a tilt.
+/// (Statistical linearisation: Gelb 1974, Applied Optimal Estimation, section 6.2.)
+double difference_for(double std) { return std::max(1e-5, std); }
 constexpr Eigen::Index kEuler = 3, kVelocity = 6, kTilt = 12;
 
 double difference_of(const ChannelReading& reading, double a, double b) {
@@ -90,14 +93,15 @@ FilterState FilterModel::after(const FilterState& state, const Moved& moved, dou
   return end;
 }
 
-StepDerivatives FilterModel::derivatives(const FilterState& state, const FilterState& end, const Moved& actuators,
-                                         double step_s, double tau_s) const {
+StepDerivatives FilterModel::derivatives(const FilterState& state, const FilterState& stds, const FilterState& end,
+                                         const Moved& actuators, double step_s, double tau_s) const {
   StepDerivatives all = StepDerivatives::Zero();
   for (Eigen::Index i = 0; i < all.cols(); ++i) {
     if (i == 2) continue;
     FilterState moved = state;
-    moved[kEuler + i] += kDifference;
-    all.col(i) = (after(moved, actuators, step_s, tau_s) - end).head<kStates>() / kDifference;
+    const double difference = difference_for(stds[kEuler + i]);
+    moved[kEuler + i] += difference;
+    all.col(i) = (after(moved, actuators, step_s, tau_s) - end).head<kStates>() / difference;
   }
   // Yaw turns the way that the vehicle goes through the water, and nothing else.
   all(0, 2) = -(end[1] - state[1] - step_s * get(calibration_, Nuisance::current_east));
@@ -145,18 +149,19 @@ void FilterModel::innovations(const FilterState& state, double time_s, std::span
   for (std::size_t i = 0; i < readings.size(); ++i) out[i] = difference_of(readings[i], readings[i].value, out[i]);
 }
 
-void FilterModel::sensitivities(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
-                                std::span<FilterState> out) const {
+void FilterModel::sensitivities(const FilterState& state, const FilterState& stds, double time_s,
+                                std::span<const ChannelReading> readings, std::span<FilterState> out) const {
   const auto held = held_for(readings, time_s);
   std::fill(out.begin(), out.end(), FilterState::Zero());
   std::vector<double> here(readings.size()), there(readings.size());
   predict(state, held.get(), readings, here.data());
   for (Eigen::Index s = 0; s < (held ? kFilterStates : kStates); ++s) {
     FilterState moved = state;
-    moved[s] += kDifference;
+    const double difference = difference_for(stds[s]);
+    moved[s] += difference;
     predict(moved, held.get(), readings, there.data());
     for (std::size_t i = 0; i < readings.size(); ++i)
-      out[i][s] = difference_of(readings[i], there[i], here[i]) / kDifference;
+      out[i][s] = difference_of(readings[i], there[i], here[i]) / difference;
   }
 }
 

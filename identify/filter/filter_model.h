@@ -40,15 +40,16 @@ class FilterModel {
   /// The state a step later. d acts as a change of velocity, half before and half behind the Runge-Kutta step, and
   /// decays with tau.
   [[nodiscard]] FilterState after(const FilterState& state, const Moved& moved, double step_s, double tau_s) const;
-  /// By finite differences about `state`, whose end is `end`.
-  [[nodiscard]] StepDerivatives derivatives(const FilterState& state, const FilterState& end, const Moved& moved,
-                                            double step_s, double tau_s) const;
+  /// About `state`, whose end is `end`, by differences over its standard errors `stds`.
+  [[nodiscard]] StepDerivatives derivatives(const FilterState& state, const FilterState& stds,
+                                            const FilterState& end, const Moved& moved, double step_s,
+                                            double tau_s) const;
   /// Readings less predictions at one instant, angles wrapped, to `out`.
   void innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
                    double* out) const;
-  /// Derivatives of the predictions by the state, one column for each reading.
-  void sensitivities(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
-                     std::span<FilterState> out) const;
+  /// Derivatives of the predictions by the state in the same way, one column for each reading.
+  void sensitivities(const FilterState& state, const FilterState& stds, double time_s,
+                     std::span<const ChannelReading> readings, std::span<FilterState> out) const;
 
  private:
   void predict(const FilterState& state, const sim::LayoutVehicle::Held* held,

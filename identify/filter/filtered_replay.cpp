@@ -18,8 +18,9 @@ constexpr double kLongestStep_s = 0.1, kTogether_s = 0.001;
 constexpr double kSilence_s = 10;  ///< of all instruments, behind which the filter starts anew
 constexpr double kLeftOut_s = 5;   ///< before a place where it diverges
 constexpr double kRunIn_s = 1;     ///< what the actuators did before the recording is not known
-constexpr double kSettling_s =
-    1;  ///< innovations of a simulated vehicle: 28 times the stated power in 0.5 s, then 2.5, then 1
+/// Pitch of simulated vehicles that begin under way, mean square of the innovations: 1.09 behind 1 and 2 s.
+constexpr double kSettling_s = 3;
+constexpr double kEvidence_s = 1;  ///< at least, of readings behind that
 constexpr double kColumnPart = 1e-3;  ///< of a prior's standard deviation
 constexpr double kDelayColumn_s = 0.005;
 
@@ -43,6 +44,8 @@ FilterState growth_of(const FilterNoises& noises, double step_s) {
   all.tail<6>() = -std::expm1(-2 * step_s / noises.tau_s) * noises.coloured.cwiseAbs2();
   return all;
 }
+
+FilterState stds_of(const FilterMatrix& covariance) { return covariance.diagonal().cwiseMax(0).cwiseSqrt(); }
 
 /// Covariance a step later.
 FilterMatrix grown(const FilterMatrix& covariance, const Transition& transition, const FilterState& growth) {
@@ -118,9 +121,10 @@ FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> par
   const double begin_s = readings_.front().time_s + kRunIn_s;
   std::erase_if(readings_, [&](const auto& reading) { return reading.time_s < begin_s; });
   make_steps();
-  if (readings_.empty() || readings_.back().time_s - begin_s < kRunIn_s)
+  if (readings_.empty() || readings_.back().time_s - begin_s < kSettling_s + kEvidence_s)
     throw std::invalid_argument(fmt::format("{}: {:.1f} s with readings; at least {:.0f} s are needed",
-                                            recorded.name, recorded.duration_s, 2 * kRunIn_s));
+                                            recorded.name, recorded.duration_s,
+                                            kRunIn_s + kSettling_s + kEvidence_s));
   // At a point where everything is at work.
   std::vector<ChannelReading> one_each;
   for (std::size_t c = 0; c < kChannels; ++c) {
@@ -248,7 +252,8 @@ std::vector<double> FilteredReplay::run(const Eigen::VectorXd& values, FilterPas
       pass.steps[k].begin = state;
       const auto moved = model.moved_over(step.time_s - step.length_s, step.length_s);
       const FilterState end = model.after(state, moved, step.length_s, noises_.tau_s);
-      pass.steps[k].derivatives = model.derivatives(state, end, moved, step.length_s, noises_.tau_s);
+      pass.steps[k].derivatives =
+          model.derivatives(state, stds_of(covariance), end, moved, step.length_s, noises_.tau_s);
       const Transition transition(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises_.tau_s);
       covariance = grown(covariance, transition, growth_of(noises_, step.length_s));
       state = end;
@@ -259,7 +264,7 @@ std::vector<double> FilteredReplay::run(const Eigen::VectorXd& values, FilterPas
     sensitivities.resize(step.count);
     if (step.count > 0 && is_sane(point_of(state.head<kStates>()).body)) {
       model.innovations(state, step.time_s, readings, numbers.data());
-      model.sensitivities(state, step.time_s, readings, sensitivities);
+      model.sensitivities(state, stds_of(covariance), step.time_s, readings, sensitivities);
       for (std::size_t i = 0; i < step.count; ++i) {
         out[i].innovation = numbers[i];
         out[i].sensitivity = sensitivities[i];

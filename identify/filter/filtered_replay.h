@@ -70,8 +70,8 @@ struct FilterLinearised {
 /// The filter steps from reading to reading, at most 0.1 s at once; readings closer than 1 ms are taken together.
 /// Unknown are `values`: the parameters in their units, then the nuisances (Nuisance) of the recording. Where the
 /// recording is silent for 10 s it starts anew at the measured state, with wide errors; the same behind a stretch
-/// that diverges. Readings of its first second are no evidence: the filter is linear about a state that it does
-/// not know yet.
+/// that diverges. Readings of its first three seconds are no evidence: the filter is linear about a state that
+/// it does not know yet.
 class FilteredReplay {
  public:
   /// `recorded` must outlive it. Throws std::invalid_argument in words when commands or readings are missing.
