@@ -3,58 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "base/angles.h"
 #include "web/outlets/json_members.h"
+#include "web/outlets/members.h"
 
 namespace navcal::web {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kCoulombsInAh = 3600, kJoulesInWh = 3600;
-
-struct PathMeta {
-  std::string_view path;
-  std::string_view units;
-  std::string_view description;
-  const char* key = nullptr;  ///< of the message, where the value is that number
-  double factor = 1;
-};
-
-constexpr PathMeta kPathMetas[]{
-    {"navigation.position", "deg", "Position, WGS 84; with fixes or by dead reckoning"},
-    {"navigation.position.standardError", "m", "Standard errors of the position: north, east"},
-    {"navigation.headingTrue", "rad", "Heading from true north"},
-    {"navigation.headingTrue.standardError", "rad", "Standard error of the heading"},
-    {"navigation.headingMagnetic", "rad", "Heading from magnetic north, deviation removed"},
-    {"navigation.headingMagnetic.standardError", "rad", "Standard error of one reading of the compass"},
-    {"navigation.headingCompass", "rad", "Heading as the compass said it"},
-    {"navigation.magneticDeviation", "rad", "Deviation of the compass, by the calibration in force"},
-    {"navigation.magneticVariation", "rad", "Declination of the Earth's field, positive east"},
-    {"navigation.attitude", "rad", "Roll (starboard down), pitch (bow up), yaw (as the heading)"},
-    {"navigation.rateOfTurn", "rad/s", "Rate of turn, positive to starboard"},
-    {"navigation.rateOfTurn.standardError", "rad/s", "Standard error of one reading of the gyro"},
-    {"navigation.speedThroughWater", "m/s", "Speed ahead through the water", "speed_m_s"},
-    {"navigation.speedOverGround", "m/s", "Horizontal speed over ground"},
-    {"navigation.courseOverGroundTrue", "rad", "Course over ground from true north"},
-    {"environment.current", "", "Set of the water: setTrue in rad, drift in m/s"},
-    {"environment.depth.surfaceToTransducer", "m", "Depth of the vehicle below the surface", "depth_m"},
-    {"environment.depth.belowTransducer", "m", "Height of the vehicle above the sea floor", "altitude_m"},
-    {"environment.depth.belowTransducer.standardError", "m", "Standard error of the height", "altitude_std_m"},
-    {"environment.depth.belowSurface", "m", "Depth of the water", "water_depth_m"},
-};
-constexpr PathMeta kBatteryMetas[]{
-    {"voltage", "V", "Voltage of the battery", "voltage_V"},
-    {"current", "A", "Current of the battery, positive while it is charged", "current_A", -1},
-    {"capacity.stateOfCharge", "ratio", "Charge that is left, of the capacity", "charge_percent", 0.01},
-    {"capacity.remaining", "J", "Energy that is left", "energy_Wh", kJoulesInWh},
-    {"capacity.remainingCharge", "C", "Charge that is left", "charge_Ah", kCoulombsInAh},
-    {"capacity.remainingCharge.standardError", "C", "Standard error of the charge that is left", "charge_std_Ah",
-     kCoulombsInAh},
-    {"capacity.timeRemaining", "s", "Time left at the mean load", "time_left_s"},
-};
 constexpr std::string_view kBatteries = "electrical.batteries.";
 
 /// A number, or null.
@@ -78,14 +36,11 @@ std::string signalk_instance(std::string_view device) {
   return instance.empty() ? "0" : instance;
 }
 
-/// Appends the paths of `metas` that are numbers of the message.
-void append_numbers(std::vector<SignalKValue>& values, const std::string& head, std::span<const PathMeta> metas,
+/// Appends the paths that are numbers of the message.
+void append_numbers(std::vector<SignalKValue>& values, const std::string& head, const Members& members,
                     const json& message) {
-  for (const PathMeta& meta : metas) {
-    if (meta.key != nullptr)
-      values.push_back(
-          {head + std::string(meta.path), signalk_number(scaled(number_in(message, meta.key), meta.factor))});
-  }
+  for (const Member& member : members)
+    if (member.key != "-") values.push_back({head + member.name, signalk_number(member.of(message))});
 }
 
 std::vector<SignalKValue> signalk_rates(const json& imu) {
@@ -99,19 +54,18 @@ std::vector<SignalKValue> signalk_rates(const json& imu) {
 }  // namespace
 
 json signalk_meta(std::string_view path) {
-  const auto meta_in = [](std::span<const PathMeta> metas, std::string_view name) -> json {
-    for (const PathMeta& meta : metas) {
-      if (meta.path != name) continue;
-      json found{{"description", meta.description}};
-      if (!meta.units.empty()) found["units"] = meta.units;
-      return found;
-    }
-    return nullptr;
+  const auto meta_in = [](const Members& members, std::string_view name) -> json {
+    const auto found = std::ranges::find(members, name, &Member::name);
+    if (found == members.end()) return nullptr;
+    json meta{{"description", found->help}};
+    if (found->unit != "-") meta["units"] = found->unit;
+    return meta;
   };
-  if (!path.starts_with(kBatteries)) return meta_in(kPathMetas, path);
+  if (!path.starts_with(kBatteries)) return meta_in(members_of("signalk"), path);
   const auto instance_end = path.find('.', kBatteries.size());
-  return instance_end == std::string_view::npos ? json(nullptr)
-                                                : meta_in(kBatteryMetas, path.substr(instance_end + 1));
+  return instance_end == std::string_view::npos
+             ? json(nullptr)
+             : meta_in(members_of("signalk_battery"), path.substr(instance_end + 1));
 }
 
 SignalKUpdate SignalKModel::take(const Record& record) {
@@ -125,14 +79,14 @@ SignalKUpdate SignalKModel::take(const Record& record) {
     values.push_back({"navigation.magneticVariation", signalk_number(declination_rad_)});
   } else if (record.topic == "/nav") {
     values = navigation(message);
-    append_numbers(values, "", kPathMetas, message);
+    append_numbers(values, "", members_of("signalk"), message);
   } else if (record.topic == "/compass" && serves("heading", record.device)) {
     values = compass(message);
   } else if (record.topic == "/imu" && serves("rates", record.device)) {
     values = signalk_rates(message);
   } else if (record.topic == "/battery") {
-    append_numbers(values, std::string(kBatteries) + signalk_instance(record.device) + '.', kBatteryMetas,
-                   message);
+    append_numbers(values, std::string(kBatteries) + signalk_instance(record.device) + '.',
+                   members_of("signalk_battery"), message);
   }
   for (SignalKValue& one : values) {
     const bool was_known = newest_.contains(one.path);
