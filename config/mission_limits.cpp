@@ -18,21 +18,16 @@ std::vector<Option<MissionLimits>> make_mission_limit_options() {
   using L = MissionLimits;
   const auto limits = table_of<L>("limits", std::identity());
   return {
-      limits.number("minutes", &L::duration_s, kMinutes, 1, 120, "Longest duration of the mission."),
-      limits.number("min_depth_m", &L::least_depth_m, kMetres, 0.15, 100,
-                    "Least depth; above 0.2 m the mission does not surface."),
-      limits.number("max_depth_m", &L::greatest_depth_m, kMetres, 0.3, 1000,
-                    "Greatest depth; more than the least."),
-      limits.number("max_range_m", &L::range_m, kMetres, 5, 10000,
-                    "Greatest horizontal distance from where the mission begins."),
-      limits.number("max_speed_m_s", &L::speed_m_s, kMetresPerSecond, 0.3, 10,
-                    "Greatest speed through the water."),
-      limits.number("max_shaft_rpm", &L::shaft_rps, kRpm, 60, 60000, "Greatest shaft speed."),
-      limits.number("max_turn_deg_s", &L::turn_rad_s, kDegreesPerSecond, 5, 90,
-                    "Greatest rate of turn, either way."),
-      limits.number("energy_Wh", &L::energy_Wh, kWattHours, 0.1, 1e6, "Energy of motor and all other consumers."),
-      limits.number("supply_V", &L::supply_V, kVolts, 1, 1000, "Supply voltage, from which the energy follows."),
-      limits.number("hotel_A", &L::hotel_A, kAmperes, 0, 1000, "Current of all consumers but the motor."),
+      limits.number("minutes", &L::duration_s, kMinutes, 1, 120),
+      limits.number("min_depth_m", &L::least_depth_m, kMetres, 0.15, 100),
+      limits.number("max_depth_m", &L::greatest_depth_m, kMetres, 0.3, 1000),
+      limits.number("max_range_m", &L::range_m, kMetres, 5, 10000),
+      limits.number("max_speed_m_s", &L::speed_m_s, kMetresPerSecond, 0.3, 10),
+      limits.number("max_shaft_rpm", &L::shaft_rps, kRpm, 60, 60000),
+      limits.number("max_turn_deg_s", &L::turn_rad_s, kDegreesPerSecond, 5, 90),
+      limits.number("energy_Wh", &L::energy_Wh, kWattHours, 0.1, 1e6),
+      limits.number("supply_V", &L::supply_V, kVolts, 1, 1000),
+      limits.number("hotel_A", &L::hotel_A, kAmperes, 0, 1000),
   };
 }
 

@@ -13,6 +13,7 @@ using Step = MissionStep;
 template <class InFile, class T>
 Option<Step> step_option(OptionInfo info, std::optional<T> Step::*value) {
   const Unit unit = info.unit;
+  info.description = option_text(kUntitled<Step>, info.key);
   const auto get = [value, unit](const Step& step) {
     const auto& given = step.*value;
     if (!given) return Value(Unsupported{"nothing"});
@@ -24,29 +25,24 @@ Option<Step> step_option(OptionInfo info, std::optional<T> Step::*value) {
   return {std::move(info), get, set};
 }
 
-Option<Step> number(std::string_view key, std::optional<double> Step::*value, Unit unit, double low, double high,
-                    std::string_view description) {
-  return step_option<double>(
-      {.key = key, .description = description, .kind = Kind::real, .unit = unit, .low = low, .high = high}, value);
+Option<Step> number(std::string_view key, std::optional<double> Step::*value, Unit unit, double low, double high) {
+  return step_option<double>({.key = key, .kind = Kind::real, .unit = unit, .low = low, .high = high}, value);
 }
 
-Option<Step> count(std::string_view key, std::optional<int> Step::*value, double low, double high,
-                   std::string_view description) {
-  return step_option<std::int64_t>(
-      {.key = key, .description = description, .kind = Kind::integer, .low = low, .high = high}, value);
+Option<Step> count(std::string_view key, std::optional<int> Step::*value, double low, double high) {
+  return step_option<std::int64_t>({.key = key, .kind = Kind::integer, .low = low, .high = high}, value);
 }
 
 std::vector<Option<M>> make_mission_options() {
   const auto table = table_of<M>("mission", std::identity());
   const auto start = table_of<M>("start", &M::start);
   return {
-      table.text("description", &M::description, is_printable, "a text without control characters",
-                 "Purpose of the mission."),
-      table.choice("at_end", &M::at_end, {"repeat", "hold"}, "Repeat the mission, or continue as at its end."),
-      start.number("heading_deg", &MissionStart::heading_rad, kDegrees, -360, 360, "Heading, true."),
-      start.number("depth_m", &MissionStart::depth_m, kMetres, 0, 1000, "Depth."),
-      start.number("speed_m_s", &MissionStart::speed_m_s, kMetresPerSecond, 0, 10, "Speed."),
-      start.number("shaft_rpm", &MissionStart::shaft_rps, kRpm, 0, 60000, "Shaft speed."),
+      table.text("description", &M::description, is_printable, "a text without control characters"),
+      table.choice("at_end", &M::at_end, {"repeat", "hold"}),
+      start.number("heading_deg", &MissionStart::heading_rad, kDegrees, -360, 360),
+      start.number("depth_m", &MissionStart::depth_m, kMetres, 0, 1000),
+      start.number("speed_m_s", &MissionStart::speed_m_s, kMetresPerSecond, 0, 10),
+      start.number("shaft_rpm", &MissionStart::shaft_rps, kRpm, 0, 60000),
   };
 }
 
@@ -55,29 +51,26 @@ std::vector<Option<Step>> make_step_options() {
   return {
       step.choice("do", &Step::kind,
                   {"leg", "turn", "circle", "spiral", "zigzag", "pirouette", "dive", "surface", "speed", "swing",
-                   "doublet", "direct"},
-                  "Kind of the step."),
-      step.choice("on", &Step::on, {"rudder", "elevator", "fin1", "fin2", "fin3"},
-                  "Control surface that a doublet moves."),
-      number("heading_deg", &Step::heading_rad, kDegrees, -360, 360, "True heading, reached by the shorter turn."),
-      number("by_deg", &Step::by_rad, kDegrees, -36000, 36000, "Change of heading, to starboard."),
-      number("turns", &Step::turns, kNoUnit, -1000, 1000, "Turns, to starboard."),
-      count("stations", &Step::stations, 2, 360, "Number of headings, evenly around the circle."),
-      number("rate_deg_s", &Step::rate_rad_s, kDegreesPerSecond, 0.1, 90, "Rate of turn."),
-      number("depth_m", &Step::depth_m, kMetres, 0, 1000, "Depth."),
-      number("rudder_deg", &Step::rudder_rad, kDegrees, -50, 50, "Rudder, positive to starboard."),
-      number("elevator_deg", &Step::elevator_rad, kDegrees, -50, 50, "Elevator, positive nose up."),
-      number("fin1_deg", &Step::fin1_rad, kDegrees, -80, 80, "Angle of the fin."),
-      number("fin2_deg", &Step::fin2_rad, kDegrees, -80, 80, "Angle of the fin."),
-      number("fin3_deg", &Step::fin3_rad, kDegrees, -80, 80, "Angle of the fin."),
-      number("reach_deg", &Step::reach_rad, kDegrees, 1, 170, "Change of the heading to either side."),
-      number("amplitude_deg", &Step::amplitude_rad, kDegrees, -50, 50,
-             "Deflection of the control surface from its position."),
-      number("shaft_rpm", &Step::shaft_rps, kRpm, 0, 60000, "Shaft speed, from now on."),
-      number("speed_m_s", &Step::speed_m_s, kMetresPerSecond, 0.05, 10, "Speed to be held, from now on."),
-      number("seconds", &Step::seconds, kSeconds, 0.1, 1e6, "How long."),
-      number("metres", &Step::metres, kMetres, 0.1, 1e6, "How far."),
-      count("times", &Step::times, 1, 10000, "How often."),
+                   "doublet", "direct"}),
+      step.choice("on", &Step::on, {"rudder", "elevator", "fin1", "fin2", "fin3"}),
+      number("heading_deg", &Step::heading_rad, kDegrees, -360, 360),
+      number("by_deg", &Step::by_rad, kDegrees, -36000, 36000),
+      number("turns", &Step::turns, kNoUnit, -1000, 1000),
+      count("stations", &Step::stations, 2, 360),
+      number("rate_deg_s", &Step::rate_rad_s, kDegreesPerSecond, 0.1, 90),
+      number("depth_m", &Step::depth_m, kMetres, 0, 1000),
+      number("rudder_deg", &Step::rudder_rad, kDegrees, -50, 50),
+      number("elevator_deg", &Step::elevator_rad, kDegrees, -50, 50),
+      number("fin1_deg", &Step::fin1_rad, kDegrees, -80, 80),
+      number("fin2_deg", &Step::fin2_rad, kDegrees, -80, 80),
+      number("fin3_deg", &Step::fin3_rad, kDegrees, -80, 80),
+      number("reach_deg", &Step::reach_rad, kDegrees, 1, 170),
+      number("amplitude_deg", &Step::amplitude_rad, kDegrees, -50, 50),
+      number("shaft_rpm", &Step::shaft_rps, kRpm, 0, 60000),
+      number("speed_m_s", &Step::speed_m_s, kMetresPerSecond, 0.05, 10),
+      number("seconds", &Step::seconds, kSeconds, 0.1, 1e6),
+      number("metres", &Step::metres, kMetres, 0.1, 1e6),
+      count("times", &Step::times, 1, 10000),
   };
 }
 

@@ -9,6 +9,9 @@
 
 namespace navcal::config {
 
+template <>
+inline constexpr std::string_view kUntitled<MissionStep> = "step";
+
 /// Options of the tables [mission] and [start].
 [[nodiscard]] const std::vector<Option<Mission>>& mission_options();
 

@@ -61,7 +61,15 @@ struct Option : OptionInfo {
   std::function<void(Owner&, const Value&)> set;
 };
 
-/// Makes the options of one table. Each maker takes the key, the member, its bounds, and the description.
+/// Purpose of an option, or of a table for an empty key, by option_texts.txt. Throws std::out_of_range without
+/// one.
+[[nodiscard]] std::string_view option_text(std::string_view table, std::string_view key = {});
+
+/// Name of the table without a name in option_texts.txt.
+template <class Owner>
+inline constexpr std::string_view kUntitled{};
+
+/// Makes the options of one table. Each maker takes the key, the member and its bounds.
 template <class Owner, class Part>
 struct TableOf {
   std::string_view table;
@@ -69,16 +77,15 @@ struct TableOf {
   std::vector<protocols::Protocol> only_for{};
 
   template <class Member>
-  Option<Owner> boolean(std::string_view key, Member member, std::string_view description) const {
-    return plain<bool>({.key = key, .description = description, .kind = Kind::boolean}, member);
+  Option<Owner> boolean(std::string_view key, Member member) const {
+    return plain<bool>({.key = key, .kind = Kind::boolean}, member);
   }
 
   template <class Member>
-  Option<Owner> integer(std::string_view key, Member member, const Unit& unit, double low, double high,
-                        std::string_view description) const {
+  Option<Owner> integer(std::string_view key, Member member, const Unit& unit, double low, double high) const {
     return make(
-        {.key = key, .description = description, .kind = Kind::integer, .unit = unit, .low = low, .high = high},
-        member, [](const auto& field) { return Value(std::int64_t{field}); },
+        {.key = key, .kind = Kind::integer, .unit = unit, .low = low, .high = high}, member,
+        [](const auto& field) { return Value(std::int64_t{field}); },
         [](auto& field, const Value& value) {
           field = static_cast<std::remove_reference_t<decltype(field)>>(std::get<std::int64_t>(value));
         });
@@ -86,11 +93,10 @@ struct TableOf {
 
   /// `low` and `high` are in `unit`.
   template <class Member>
-  Option<Owner> number(std::string_view key, Member member, const Unit& unit, double low, double high,
-                       std::string_view description) const {
+  Option<Owner> number(std::string_view key, Member member, const Unit& unit, double low, double high) const {
     return make(
-        {.key = key, .description = description, .kind = Kind::real, .unit = unit, .low = low, .high = high},
-        member, [unit](const auto& field) { return Value(to_file(field, unit)); },
+        {.key = key, .kind = Kind::real, .unit = unit, .low = low, .high = high}, member,
+        [unit](const auto& field) { return Value(to_file(field, unit)); },
         [unit](auto& field, const Value& value) {
           field = to_inside<std::remove_reference_t<decltype(field)>>(std::get<double>(value), unit);
         });
@@ -98,26 +104,23 @@ struct TableOf {
 
   /// A text or a path; `rule` says in words what `holds` checks.
   template <class Member>
-  Option<Owner> text(std::string_view key, Member member, bool (*holds)(std::string_view), std::string_view rule,
-                     std::string_view description) const {
-    return plain<std::string>({.key = key, .description = description, .text_rule = rule, .text_holds = holds},
-                              member);
+  Option<Owner> text(std::string_view key, Member member, bool (*holds)(std::string_view),
+                     std::string_view rule) const {
+    return plain<std::string>({.key = key, .text_rule = rule, .text_holds = holds}, member);
   }
 
   /// A list of texts, which may be empty; likewise of each.
   template <class Member>
-  Option<Owner> list(std::string_view key, Member member, bool (*holds)(std::string_view), std::string_view rule,
-                     std::string_view description) const {
+  Option<Owner> list(std::string_view key, Member member, bool (*holds)(std::string_view),
+                     std::string_view rule) const {
     return plain<std::vector<std::string>>(
-        {.key = key, .description = description, .kind = Kind::list, .text_rule = rule, .text_holds = holds},
-        member);
+        {.key = key, .kind = Kind::list, .text_rule = rule, .text_holds = holds}, member);
   }
 
   template <class Member>
-  Option<Owner> choice(std::string_view key, Member member, const std::vector<std::string_view>& choices,
-                       std::string_view description) const {
+  Option<Owner> choice(std::string_view key, Member member, const std::vector<std::string_view>& choices) const {
     return make(
-        {.key = key, .description = description, .kind = Kind::choice, .choices = choices}, member,
+        {.key = key, .kind = Kind::choice, .choices = choices}, member,
         [choices](const auto& field) { return Value(std::string(choices.at(static_cast<std::size_t>(field)))); },
         [choices](auto& field, const Value& value) {
           const auto chosen = std::find(choices.begin(), choices.end(), std::get<std::string>(value));
@@ -127,11 +130,10 @@ struct TableOf {
 
   /// The numbers of an array.
   template <class Member>
-  Option<Owner> channels(std::string_view key, Member member, const Unit& unit, double low, double high,
-                         std::string_view description) const {
+  Option<Owner> channels(std::string_view key, Member member, const Unit& unit, double low, double high) const {
     auto option = make(
-        {.key = key, .description = description, .kind = Kind::channels, .unit = unit, .low = low, .high = high},
-        member, [](const auto& field) { return Value(std::vector<double>(field.begin(), field.end())); },
+        {.key = key, .kind = Kind::channels, .unit = unit, .low = low, .high = high}, member,
+        [](const auto& field) { return Value(std::vector<double>(field.begin(), field.end())); },
         [](auto& field, const Value& value) {
           const auto& given = std::get<std::vector<double>>(value);
           std::copy(given.begin(), given.end(), field.begin());
@@ -145,6 +147,7 @@ struct TableOf {
   template <class Member>
   Option<Owner> make(OptionInfo info, Member member, auto read, auto write) const {
     info.table = table;
+    info.description = option_text(table.empty() ? kUntitled<Owner> : table, info.key);
     info.only_for = only_for;
     const auto field = [ part = part, member ](auto& owner) -> auto& {
       return std::invoke(member, std::invoke(part, owner));

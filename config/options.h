@@ -10,6 +10,11 @@
 
 namespace navcal::config {
 
+template <>
+inline constexpr std::string_view kUntitled<PortSettings> = "port";
+template <>
+inline constexpr std::string_view kUntitled<PowerSettings> = "power";
+
 /// The options outside ports, table by table in the order of the file.
 [[nodiscard]] const std::vector<Option<Settings>>& daemon_options();
 
@@ -26,9 +31,5 @@ namespace navcal::config {
 
 /// The options of a [power.NAME] table.
 [[nodiscard]] const std::vector<Option<PowerSettings>>& power_options();
-
-/// One-line purpose of a table: "log", "status", ...; of a port "", "units", "channels", "fix"; of a
-/// supply "power".
-[[nodiscard]] std::string_view table_description(std::string_view table);
 
 }  // namespace navcal::config

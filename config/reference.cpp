@@ -69,7 +69,7 @@ std::string default_clause(const OptionInfo& option, const std::string& words) {
 
 std::string daemon_part() {
   const auto heading = [](std::string_view table) {
-    return fmt::format("\n# {}\n[{}]\n", table_description(table), table);
+    return fmt::format("\n# {}\n[{}]\n", option_text(table), table);
   };
   return text_of(daemon_options(), heading, [](const auto& option) {
     const std::string words = default_words(option);
@@ -88,17 +88,17 @@ std::string explained(const Option<Owner>& option) {
 /// Every option of a port, explained once.
 std::string port_part() {
   const auto heading = [](std::string_view table) {
-    return fmt::format("#\n# {} (for {})\n# [port.NAME.{}]\n", table_description(table),
+    return fmt::format("#\n# {} (for {})\n# [port.NAME.{}]\n", option_text(table),
                        protocols_words(port_options(), table), table);
   };
-  return fmt::format("\n# {}\n#\n# [port.NAME]\n", table_description("")) +
+  return fmt::format("\n# {}\n#\n# [port.NAME]\n", option_text(kUntitled<PortSettings>)) +
          text_of(port_options(), heading, explained<PortSettings>);
 }
 
 /// Every option of a supply.
 std::string power_part() {
   const auto heading = [](std::string_view) { return std::string(); };
-  return fmt::format("\n# {}\n#\n# [power.NAME]\n", table_description("power")) +
+  return fmt::format("\n# {}\n#\n# [power.NAME]\n", option_text(kUntitled<PowerSettings>)) +
          text_of(power_options(), heading, explained<PowerSettings>);
 }
 
@@ -109,8 +109,7 @@ bool is_of_vehicle(const OptionInfo& option, const Value&) {
 }
 
 template <class Owner>
-std::string markdown(const std::vector<Option<Owner>>& options, std::string_view prefix,
-                     std::string_view own_description = "") {
+std::string markdown(const std::vector<Option<Owner>>& options, std::string_view prefix) {
   std::string out;
   std::string_view table = "none yet";
   for (const auto& option : options) {
@@ -119,7 +118,7 @@ std::string markdown(const std::vector<Option<Owner>>& options, std::string_view
       table = option.table;
       const std::string_view dot = prefix.empty() || table.empty() ? "" : ".";
       out += fmt::format("\n### `[{}{}{}]`\n\n{}", prefix, dot, table,
-                         table_description(table.empty() ? own_description : table));
+                         option_text(table.empty() ? kUntitled<Owner> : table));
       if (!option.only_for.empty()) out += fmt::format(" For {} only.", protocols_words(options, table));
       out += "\n\n| key | what | allowed | default |\n|---|---|---|---|\n";
     }
@@ -166,7 +165,7 @@ std::string with_option_tables(std::string_view page) {
   std::string out(page.substr(0, begin + kBegin.size()));
   out += markdown(daemon_options(), "");
   out += markdown(port_options(), "port.NAME");
-  out += markdown(power_options(), "power.NAME", "power");
+  out += markdown(power_options(), "power.NAME");
   out += '\n';
   return out += page.substr(end);
 }

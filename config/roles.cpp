@@ -17,7 +17,6 @@ struct RoleRow {
   bool Delivery::*delivers;
   Role leader;
   Meaning first, second, third;  ///< a description with one of them delivers it
-  std::string_view description;  ///< of its key in [roles]
 };
 
 const RoleRow& row_of(Role role) {
@@ -26,31 +25,18 @@ const RoleRow& row_of(Role role) {
   using R = Role;
   // In the order of the roles.
   static constexpr std::array<RoleRow, kRoles.size()> kRows{{
-      {"heading", &D::heading, R::heading, field_x, heading, heading_true,
-       "Port whose compass gives the heading. Empty: the best that delivers, a TCM2 before NMEA."},
-      {"field", &D::field, R::heading, field_x, none, none,
-       "Port whose magnetometer gives the magnetic field, which the calibrators learn from. Empty: as for "
-       "heading."},
-      {"rates", &D::rates, R::rates, rate_x, none, none,
-       "Port whose gyros give the rates. Empty: the first that delivers."},
-      {"acceleration", &D::acceleration, R::rates, specific_force_x, none, none,
-       "Port whose accelerometers give the specific force. Empty: as for rates."},
-      {"depth", &D::depth, R::rates, depth, pressure, none, "Port that gives the depth. Empty: as for rates."},
-      {"position", &D::position, R::position, latitude, none, none,
-       "Port of the receiver that gives the position. Empty: the one with the smaller stated error."},
-      {"velocity", &D::velocity, R::position, speed, none, none,
-       "Port of the receiver that gives the velocity over ground. Empty: as for position."},
-      {"shaft", &D::shaft, R::shaft, rpm, none, none,
-       "Port that gives the speed of the propeller's shaft. Empty: the first that delivers."},
-      {"altitude", &D::altitude, R::altitude, altitude, none, none,
-       "Port of the echo sounder that gives the height above the sea floor. Empty: the first that delivers."},
-      {"bottom_velocity", &D::bottom_velocity, R::bottom_velocity, bottom_velocity_x, bottom_velocity_north, none,
-       "Port of the Doppler log that gives the velocity over the bottom. Empty: the first that delivers."},
-      {"water_velocity", &D::water_velocity, R::bottom_velocity, water_velocity_x, water_velocity_north, none,
-       "Port of the Doppler log that gives the velocity through the water. Empty: as for bottom_velocity."},
-      {"heading_reference", &D::heading, R::heading_reference, field_x, heading, heading_true,
-       "Port that gives a true heading which the compass is calibrated against: a receiver with two antennas, a "
-       "gyro compass, a survey. Empty: none."},
+      {"heading", &D::heading, R::heading, field_x, heading, heading_true},
+      {"field", &D::field, R::heading, field_x, none, none},
+      {"rates", &D::rates, R::rates, rate_x, none, none},
+      {"acceleration", &D::acceleration, R::rates, specific_force_x, none, none},
+      {"depth", &D::depth, R::rates, depth, pressure, none},
+      {"position", &D::position, R::position, latitude, none, none},
+      {"velocity", &D::velocity, R::position, speed, none, none},
+      {"shaft", &D::shaft, R::shaft, rpm, none, none},
+      {"altitude", &D::altitude, R::altitude, altitude, none, none},
+      {"bottom_velocity", &D::bottom_velocity, R::bottom_velocity, bottom_velocity_x, bottom_velocity_north, none},
+      {"water_velocity", &D::water_velocity, R::bottom_velocity, water_velocity_x, water_velocity_north, none},
+      {"heading_reference", &D::heading, R::heading_reference, field_x, heading, heading_true},
   }};
   return kRows.at(static_cast<std::size_t>(role));
 }
@@ -58,8 +44,6 @@ const RoleRow& row_of(Role role) {
 }  // namespace
 
 std::string_view name_of(Role role) { return row_of(role).name; }
-
-std::string_view description_of(Role role) { return row_of(role).description; }
 
 Role leader_of(Role role) { return row_of(role).leader; }
 

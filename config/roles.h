@@ -33,9 +33,6 @@ inline constexpr std::array kRoles{Role::heading,         Role::field,          
 /// As in the table [roles] of the configuration: "heading", "field", ..., "bottom_velocity".
 [[nodiscard]] std::string_view name_of(Role role);
 
-/// Description of its key in [roles].
-[[nodiscard]] std::string_view description_of(Role role);
-
 /// True when a device with that protocol can deliver the role, be it only where [roles] chooses it.
 [[nodiscard]] bool can_deliver(protocols::Protocol protocol, Role role);
 

@@ -40,7 +40,7 @@ std::string vehicle_file(const VehicleSettings& settings) {
       "# given is as here: a miniature AUV with one propeller and three fins. The equations are in "
       "docs/simulator.md.\n";
   const auto heading = [](std::string_view table) {
-    return fmt::format("\n# {}\n[{}]\n", vehicle_table_description(table), table);
+    return fmt::format("\n# {}\n[{}]\n", option_text(table), table);
   };
   return out + text_of(vehicle_options(), heading, [&](const auto& option) {
            return fmt::format("\n# {} ({})\n{} = {}\n", option.description, option.allowed(), option.key,

@@ -11,6 +11,5 @@ namespace navcal::config {
 
 /// Every setting of a vehicle, table by table.
 [[nodiscard]] const std::vector<Option<VehicleSettings>>& vehicle_options();
-[[nodiscard]] std::string_view vehicle_table_description(std::string_view table);
 
 }  // namespace navcal::config

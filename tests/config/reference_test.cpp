@@ -10,7 +10,10 @@
 #include <string>
 
 #include "config/load.h"
+#include "config/mission_limits.h"
+#include "config/mission_options.h"
 #include "config/options.h"
+#include "config/vehicle_options.h"
 
 namespace navcal::config {
 namespace {
@@ -69,13 +72,41 @@ TEST(ConfigReference, DefaultsAreWithinTheirOwnRanges) {
   }
 }
 
+TEST(ConfigReference, EveryTextIsOfAnOption) {
+  std::set<std::string, std::less<>> names;
+  const auto add = [&](const auto& options, const std::string& untitled) {
+    for (const auto& option : options) {
+      const std::string table = option.table.empty() ? untitled : std::string(option.table);
+      names.insert(table);
+      names.insert(table + "." + std::string(option.key));
+    }
+  };
+  add(daemon_options(), "");
+  add(port_options(), "port");
+  add(power_options(), "power");
+  add(vehicle_options(), "");
+  add(mission_options(), "");
+  add(mission_limit_options(), "");
+  add(step_options(), "step");
+  std::ifstream file(std::string(NAVCAL_SOURCE_DIR) + "/config/option_texts.txt");
+  std::set<std::string> seen;
+  for (std::string row; std::getline(file, row);) {
+    if (row.starts_with('#')) continue;
+    const std::string name = row.substr(0, row.find(' '));
+    EXPECT_TRUE(names.contains(name)) << row;
+    EXPECT_TRUE(seen.insert(name).second) << row;
+  }
+  EXPECT_GT(seen.size(), 200U);
+  EXPECT_THROW((void)option_text("log", "no_such_key"), std::out_of_range);
+}
+
 TEST(ConfigReference, EveryOptionIsDescribedOnce) {
   std::set<std::string> names;
   const auto check = [&names](const OptionInfo& option) {
     EXPECT_TRUE(names.insert(option.name()).second) << option.name();
     EXPECT_TRUE(option.description.ends_with('.') || option.description.ends_with(").")) << option.name();
     EXPECT_FALSE(option.allowed().empty()) << option.name();
-    EXPECT_FALSE(table_description(option.table).empty()) << option.table;
+    EXPECT_NO_THROW((void)option_text(option.table.empty() ? "port" : option.table)) << option.table;
   };
   for (const auto& option : daemon_options()) check(option);
   names.clear();

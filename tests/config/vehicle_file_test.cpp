@@ -43,7 +43,7 @@ TEST(VehicleFile, DefaultsAreWithinTheirOwnRangesAndEveryKeyHasAMeaning) {
     Value value = option.get(VehicleSettings{});
     EXPECT_EQ(option.adopt(value), std::nullopt) << option.name();
     EXPECT_FALSE(option.description.empty()) << option.name();
-    EXPECT_FALSE(vehicle_table_description(option.table).empty()) << option.table;
+    EXPECT_NO_THROW((void)option_text(option.table)) << option.table;
   }
 }
 
