@@ -2,7 +2,6 @@
 #include "diagnosis/causes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -24,7 +23,6 @@ struct InstrumentParameter {
   std::string_view name;
   Nuisance nuisance;
   double typical, per_unit;
-  std::optional<Channel> turns_about{};  ///< axis of a gyro that has to turn for it
 };
 
 /// An error of instruments that the fit estimates for each recording anyway. Typical strengths as those of the
@@ -39,9 +37,9 @@ const std::vector<InstrumentError>& instrument_errors() {
   static const std::vector<InstrumentError> kAll{
       {"gyro_scale",
        "turns at several rates",
-       {{"scale_ax", Nuisance::rate_scale_x, 0.03, 1, Channel::rate_x},
-        {"scale_by", Nuisance::rate_scale_y, 0.03, 1, Channel::rate_y},
-        {"scale_az", Nuisance::rate_scale_z, 0.03, 1, Channel::rate_z}},
+       {{"scale_ax", Nuisance::rate_scale_x, 0.03, 1},
+        {"scale_by", Nuisance::rate_scale_y, 0.03, 1},
+        {"scale_az", Nuisance::rate_scale_z, 0.03, 1}},
        {Channel::rate_x, Channel::rate_y, Channel::rate_z}},
       {"accel_bias",
        "pitch and roll to both sides",
@@ -128,19 +126,6 @@ void add_effects(const config::Layout& layout, const std::set<std::string, std::
   }
 }
 
-/// Whether an axis turned so little that another, askew by a degree, shows as much as this error of its scale.
-bool hardly_turned(const RecordedMotion& recording, Channel axis, double error) {
-  const auto variance = [&](Channel rate) {
-    double count = 0, sum = 0, squares = 0;
-    for (const identify::Reading& one : recording[rate])
-      ++count, sum += one.value, squares += one.value * one.value;
-    return count > 0 ? squares / count - sum * sum / (count * count) : 0;
-  };
-  const double own = variance(axis);
-  const double others = variance(Channel::rate_x) + variance(Channel::rate_y) + variance(Channel::rate_z) - own;
-  return std::pow(base::kRadiansPerDegree, 2) * others > error * error * own;
-}
-
 void add_instrument_errors(const RecordedMotion& recording, const std::set<std::string, std::less<>>& excluded,
                            CauseLibrary& library) {
   const auto first = static_cast<Eigen::Index>(library.parameters.size());
@@ -160,10 +145,6 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
                 .parameters = {},
                 .is_instrument = true};
     for (const InstrumentParameter& parameter : error.parameters) {
-      if (parameter.turns_about && hardly_turned(recording, *parameter.turns_about, parameter.typical)) {
-        library.not_judged.push_back(std::string(parameter.name) + " was not judged: the axis hardly turned");
-        continue;
-      }
       cause.parameters.push_back({.name = std::string(parameter.name),
                                   .typical = parameter.typical,
                                   .per_unit = parameter.per_unit,
@@ -171,7 +152,7 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
                                   .high = kLargestStrength * parameter.typical,
                                   .column = first + static_cast<Eigen::Index>(parameter.nuisance)});
     }
-    if (!cause.parameters.empty()) library.causes.push_back(std::move(cause));
+    library.causes.push_back(std::move(cause));
   }
 }
 

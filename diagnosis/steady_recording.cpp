@@ -11,7 +11,7 @@
 
 #include "base/statistics.h"
 #include "identify/data/gridded.h"
-#include "identify/replay/replayed_motion.h"
+#include "identify/replay/motion_point.h"
 #include "sim/layout/layout_vehicle.h"
 
 namespace navcal::diagnosis {

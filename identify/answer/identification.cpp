@@ -11,6 +11,7 @@
 
 #include "base/angles.h"
 #include "identify/answer/prediction.h"
+#include "identify/answer/refinement.h"
 #include "identify/conventions/conventions.h"
 
 namespace navcal::identify {
@@ -112,10 +113,13 @@ std::vector<DisturbanceFit> disturbances_of_fit(const PredictionErrorProblem& pr
   return all;
 }
 
+double delay_of(const PredictionErrorProblem& problem, const Estimate& estimate, std::size_t recording) {
+  return estimate.unknowns[problem.nuisances_at(recording) + static_cast<Eigen::Index>(Nuisance::actuator_delay)];
+}
+
 void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate, Identification& answer) {
   for (std::size_t r = 0; r < problem.filters().size(); ++r) {
-    const double delay_s =
-        estimate.unknowns[problem.nuisances_at(r) + static_cast<Eigen::Index>(Nuisance::actuator_delay)];
+    const double delay_s = delay_of(problem, estimate, r);
     if (std::abs(delay_s) > kLate)
       answer.warnings.push_back(fmt::format(
           "{}: the vehicle follows its commands {:.2f} s {} than the layout and the recording's times say",
@@ -197,6 +201,32 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
   }
 }
 
+/// Where the filter's likelihood is in doubt, and no controller steers the vehicle, predictions have the last
+/// word.
+void refine(const IdentifyRequest& request, PredictionErrorProblem& problem, Estimate& found,
+            Identification& answer, const FitProgress& progress) {
+  for (std::size_t r = 0; r < problem.filters().size(); ++r)
+    if (std::abs(delay_of(problem, found, r)) > kLate) return;
+  const Eigen::VectorXd values = found.unknowns.head(std::ssize(problem.parameters()));
+  try {
+    const Prediction of =
+        predict({with_values(request.prior, problem.parameters(), values), request.recordings, request.recordings},
+                [](double) {});
+    if (of.is_steered || of.errors.back().starts < kFewestStarts) return;
+    progress("predictions", 0);
+    const auto there =
+        refined(request.prior, problem.parameters(), values, request.recordings, request.settings.threads);
+    if (!there || there->error_ratio >= 1) return;
+    found = estimate_at(problem, there->parameters, there->covariance, found, progress);
+    answer.warnings.push_back(fmt::format(
+        "the numbers are those that predict the recordings best, from every measured state over 2 to 60 s: their "
+        "errors are {:.0f} % of what the filter's numbers leave",
+        100 * there->error_ratio));
+  } catch (const std::invalid_argument&) {
+    // The recordings do not measure what predictions begin with.
+  }
+}
+
 /// A problem with the recordings that it holds.
 struct Thinned {
   std::vector<RecordedMotion> recordings;
@@ -238,7 +268,8 @@ Identification identify(const IdentifyRequest& request, const FitProgress& progr
     answer.interval_s = interval_s;
   }
   PredictionErrorProblem& problem = *used.problem;
-  answer.warnings = problem.oddities();
+  if (answer.interval_s > 0) refine(request, problem, found, answer, progress);
+  for (std::string& odd : problem.oddities()) answer.warnings.push_back(std::move(odd));
   for (const Convention& wrong : check_conventions(request.prior, request.recordings, [](double) {}).found)
     answer.warnings.push_back(fmt::format("{} of {}? {}", wrong.name, wrong.what, wrong.sentence));
   answer.left_out = used.left_out;

@@ -18,7 +18,7 @@
 namespace navcal::identify {
 namespace {
 
-constexpr double kOrderEvery_s = 0.1;
+constexpr double kOrderEvery_s = 0.1, kPointEvery_s = 0.01;
 
 /// Of two signals of a shaft the first is its position, the last its command.
 void note(RecordedMotion& motion, const config::Layout& layout, double time_s, const sim::ActuatorValues& values,
@@ -170,11 +170,11 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
   recorded.name = "simulated";
   recorded.duration_s = request.seconds;
   recorded.fins_are_reported = request.reports_positions;
-  ReplayedMotion motion{0, {}};
+  std::vector<MotionPoint> points;
   sim::Body body = request.start;
   sim::ActuatorValues positions = sim::ActuatorValues::neutral(layout), commands = positions;
   const double step_s = ActuatorTrajectory::kStep_s;
-  const auto per_point = static_cast<long>(std::lround(ReplayedMotion::kStep_s / step_s));
+  const auto per_point = static_cast<long>(std::lround(kPointEvery_s / step_s));
   const auto per_order = static_cast<long>(std::lround(kOrderEvery_s / step_s));
   for (long k = 0; k <= std::lround(request.seconds / step_s); ++k) {
     const double time_s = step_s * static_cast<double>(k);
@@ -192,7 +192,11 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
       point.body = body;
       point.acceleration =
           now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now) + disturbance;
-      motion.points.push_back(point);
+      point.tilt_rad = body.euler_rad.head<2>();
+      if (!points.empty())
+        point.tilt_rad = lagged_tilt(points.back().tilt_rad, points.back().body.euler_rad.head<2>(),
+                                     point.tilt_rad, request.tilt_lag_s, kPointEvery_s);
+      points.push_back(point);
     }
     step.body.velocity += step_s * disturbance;
     const bool is_sane = std::abs(step.body.euler_rad.y()) < 1.5 && step.body.velocity.cwiseAbs().maxCoeff() < 30;
@@ -203,24 +207,23 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
     body = step.body;
     positions = std::move(next);
   }
-  if (motion.points.size() < 3) return recorded;
   recorded.tilt_lag_s = request.tilt_lag_s;
   recorded.dip_rad = request.dip_rad;
-  motion.points.front().tilt_rad = motion.points.front().body.euler_rad.head<2>();
-  add_lagged_tilt(motion, request.tilt_lag_s);
-  std::vector<ChannelReading> readings;
-  for (const ChannelNoise& channel : request.channels) {
-    const double end_s = ReplayedMotion::kStep_s * static_cast<double>(motion.points.size() - 1);
-    for (double time_s = 0.5 / channel.rate_Hz; time_s < end_s; time_s += 1 / channel.rate_Hz)
-      readings.push_back({channel.channel, time_s, 0, channel.std});
-  }
-  const Eigen::VectorXd values = PredictedReadings(recorded)(motion, readings, request.calibration);
+  const PredictedReadings instruments(recorded);
+  const Eigen::Vector3d current(get(request.calibration, Nuisance::current_north),
+                                get(request.calibration, Nuisance::current_east), 0);
   std::mt19937_64 random(request.seed.value_or(0));
   std::normal_distribution<double> normal;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const double noise = request.seed ? readings[i].std * normal(random) : 0;
-    recorded.channels[static_cast<std::size_t>(readings[i].channel)].push_back(
-        {readings[i].time_s, values[static_cast<Eigen::Index>(i)] + noise, readings[i].std});
+  for (const ChannelNoise& channel : request.channels) {
+    for (double due_s = 0.5 / channel.rate_Hz;; due_s += 1 / channel.rate_Hz) {
+      const auto at = static_cast<std::size_t>(std::lround(due_s / kPointEvery_s));
+      if (at >= points.size()) break;
+      const double time_s = kPointEvery_s * static_cast<double>(at);
+      ChannelReading reading{channel.channel, time_s, 0, channel.std};
+      instruments.at(points[at], time_s * current, std::span(&reading, 1), request.calibration, &reading.value);
+      if (request.seed) reading.value += channel.std * normal(random);
+      recorded.channels[static_cast<std::size_t>(channel.channel)].push_back({time_s, reading.value, channel.std});
+    }
   }
   return recorded;
 }

@@ -10,7 +10,7 @@
 #include "base/angles.h"
 #include "identify/data/actuator_inputs.h"
 #include "identify/data/gridded.h"
-#include "identify/replay/replayed_motion.h"
+#include "identify/replay/motion_point.h"
 
 namespace navcal::identify {
 namespace {
@@ -18,7 +18,8 @@ namespace {
 constexpr int kLayoutSteps = 5;  ///< of the layout's vehicle, in one of the grid
 constexpr double kModelStep_s = kGrid_s / kLayoutSteps;
 constexpr std::ptrdiff_t kSlopeSteps = 3;  ///< steps of the grid before and behind, for a derivative
-constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};  ///< steps of the grid
+constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};                   ///< steps of the grid
+constexpr std::array<std::size_t, 6> kOfLayout{20, 50, 100, 200, 400, 600};  ///< likewise, of single errors
 constexpr double kSteered = 3;
 
 /// The body a step later at this velocity, whose derivative is given.
@@ -243,6 +244,12 @@ Prediction predict(const PredictionRequest& request, const std::function<void(do
     Forecast forecast(track.bodies[start]);
     for (std::size_t step = 1; step <= kAfter.back() && track.is_measured(start + step); ++step) {
       forecast.advance(by, track.actuators, kGrid_s * static_cast<double>(start + step - 1));
+      if (std::find(kOfLayout.begin(), kOfLayout.end(), step) != kOfLayout.end()) {
+        const sim::Body &by_layout = forecast[Predictor::layout], &measured = track.bodies[start + step];
+        const Eigen::Vector3d apart_m = by_layout.position_m - measured.position_m;
+        all.of_layout.push_back({kGrid_s * static_cast<double>(step), apart_m.x(), apart_m.y(),
+                                 base::wrapped(by_layout.euler_rad.z() - measured.euler_rad.z())});
+      }
       const auto due = std::find(kAfter.begin(), kAfter.end(), step);
       if (due == kAfter.end()) continue;
       const auto i = static_cast<std::size_t>(due - kAfter.begin());

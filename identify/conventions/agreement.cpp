@@ -10,7 +10,7 @@
 #include "base/angles.h"
 #include "base/gravity.h"
 #include "identify/data/gridded.h"
-#include "identify/replay/replayed_motion.h"
+#include "identify/replay/motion_point.h"
 
 namespace navcal::identify {
 

@@ -82,14 +82,10 @@ FilterState FilterModel::after(const FilterState& state, const Moved& moved, dou
   body.position_m.x() += step_s * get(calibration_, Nuisance::current_north);
   body.position_m.y() += step_s * get(calibration_, Nuisance::current_east);
   FilterState end;
-  const Eigen::Vector2d then = state.segment<2>(kEuler), now = body.euler_rad.head<2>();
-  end << body.position_m, body.euler_rad, body.velocity, now, std::exp(-step_s / tau_s) * state.tail<6>();
-  if (tilt_lag_s_ > 0) {
-    // Exactly, for an input that is linear over the step.
-    const Eigen::Vector2d behind = tilt_lag_s_ / step_s * (now - then);
-    end.segment<2>(kTilt) =
-        now - behind + std::exp(-step_s / tilt_lag_s_) * (state.segment<2>(kTilt) - then + behind);
-  }
+  end << body.position_m, body.euler_rad, body.velocity,
+      lagged_tilt(state.segment<2>(kTilt), state.segment<2>(kEuler), body.euler_rad.head<2>(), tilt_lag_s_,
+                  step_s),
+      std::exp(-step_s / tau_s) * state.tail<6>();
   return end;
 }
 

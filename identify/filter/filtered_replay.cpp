@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "identify/replay/replayed_motion.h"
+#include "identify/replay/motion_point.h"
 
 namespace navcal::identify {
 namespace {

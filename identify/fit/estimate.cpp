@@ -188,6 +188,17 @@ Estimate estimate_from(PredictionErrorProblem& problem, const Eigen::VectorXd& p
   return settled(problem, settled_at(problem, unknowns_with(problem, parameters), progress), 0, progress);
 }
 
+Estimate estimate_at(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
+                     const Eigen::MatrixXd& covariance, const Estimate& from, const FitProgress& progress) {
+  Estimate estimate = from;
+  estimate.point = settled_at(problem, unknowns_with(problem, parameters), progress);
+  if (estimate.point.passes.empty()) return from;
+  estimate.unknowns = estimate.point.unknowns;
+  estimate.covariance = covariance;
+  estimate.stds = covariance.diagonal().cwiseSqrt();
+  return estimate;
+}
+
 double contradiction(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
                      const FitProgress& progress) {
   problem.set_noises(FilterNoises{});

@@ -21,6 +21,11 @@ struct EstimateSettings {
 /// Prior of a recording's nuisances about zero: nuisance_stds(), but commands may reach the actuators late.
 [[nodiscard]] Calibration estimated_nuisance_stds(const FilteredReplay& filter);
 
+/// Solution of information * step = score with the unknowns that reach a bound held there.
+[[nodiscard]] Eigen::VectorXd step_within(const Eigen::MatrixXd& information, const Eigen::VectorXd& score,
+                                          const Eigen::VectorXd& at, const Eigen::VectorXd& low,
+                                          const Eigen::VectorXd& high);
+
 /// Recordings of one vehicle with what is unknown: one vector of parameters in their units, then the nuisances of
 /// each recording.
 class PredictionErrorProblem {
@@ -107,6 +112,12 @@ struct Estimate {
 /// The same about these parameters, from which alone it starts.
 [[nodiscard]] Estimate estimate_from(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
                                      const FitProgress& progress);
+
+/// Parameters that were found in another way, with their covariance; instruments and disturbances by the problem.
+/// `from` where the vehicle leaves all bounds.
+[[nodiscard]] Estimate estimate_at(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
+                                   const Eigen::MatrixXd& covariance, const Estimate& from,
+                                   const FitProgress& progress);
 
 /// How far an estimate from all readings is off by thinned ones, which `problem` has: the fall of its cost (twice
 /// a log posterior) that its derivatives promise for other parameters, over what chance alone gives, whose mean is

@@ -17,7 +17,8 @@ constexpr double kBlock_s = 5;
 constexpr double kDelayOfCommands_s = 0.7, kEarliest_s = -0.05;
 constexpr Eigen::Index kDelayAt = static_cast<Eigen::Index>(Nuisance::actuator_delay);
 
-/// Solution with the unknowns that reach a bound held there.
+}  // namespace
+
 Eigen::VectorXd step_within(const Eigen::MatrixXd& information, const Eigen::VectorXd& score,
                             const Eigen::VectorXd& at, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
   Eigen::VectorXd step = Eigen::VectorXd::Zero(at.size());
@@ -39,8 +40,6 @@ Eigen::VectorXd step_within(const Eigen::MatrixXd& information, const Eigen::Vec
   }
   return step;
 }
-
-}  // namespace
 
 Calibration estimated_nuisance_stds(const FilteredReplay& filter) {
   Calibration stds = nuisance_stds(filter.recording());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "identify/replay/replayed_motion.h"
+#include "identify/replay/motion_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,37 +51,11 @@ MotionPoint point_of(const StateVector& state) {
   return point;
 }
 
-void add_lagged_tilt(ReplayedMotion& motion, double lag_s) {
-  for (std::size_t k = 0; k < motion.points.size(); ++k) {
-    MotionPoint& point = motion.points[k];
-    const Eigen::Vector2d now = point.body.euler_rad.head<2>();
-    if (lag_s <= 0) {
-      point.tilt_rad = now;
-    } else if (k > 0) {
-      // Exactly, for an input that is linear over the step.
-      const MotionPoint& before = motion.points[k - 1];
-      const Eigen::Vector2d then = before.body.euler_rad.head<2>();
-      const Eigen::Vector2d behind = lag_s / ReplayedMotion::kStep_s * (now - then);
-      point.tilt_rad =
-          now - behind + std::exp(-ReplayedMotion::kStep_s / lag_s) * (before.tilt_rad - then + behind);
-    }
-  }
-}
-
-MotionPoint ReplayedMotion::at(double time_s) const {
-  const double place = std::clamp((time_s - begin_s) / kStep_s, 0.0, static_cast<double>(points.size() - 1));
-  const std::size_t i = std::min(static_cast<std::size_t>(place), points.size() - 2);
-  const double s = place - static_cast<double>(i);
-  const MotionPoint &a = points[i], &b = points[i + 1];
-  MotionPoint point;
-  point.body.position_m = a.body.position_m + s * (b.body.position_m - a.body.position_m);
-  point.body.euler_rad = a.body.euler_rad + s * (b.body.euler_rad - a.body.euler_rad);
-  point.body.velocity = (1 + 2 * s) * (1 - s) * (1 - s) * a.body.velocity +
-                        s * (1 - s) * (1 - s) * kStep_s * a.acceleration + s * s * (3 - 2 * s) * b.body.velocity +
-                        s * s * (s - 1) * kStep_s * b.acceleration;
-  point.acceleration = a.acceleration + s * (b.acceleration - a.acceleration);
-  point.tilt_rad = a.tilt_rad + s * (b.tilt_rad - a.tilt_rad);
-  return point;
+Eigen::Vector2d lagged_tilt(const Eigen::Vector2d& shown, const Eigen::Vector2d& then, const Eigen::Vector2d& now,
+                            double lag_s, double step_s) {
+  if (lag_s <= 0) return now;
+  const Eigen::Vector2d behind = lag_s / step_s * (now - then);
+  return now - behind + std::exp(-step_s / lag_s) * (shown - then + behind);
 }
 
 void measure_state(const RecordedMotion& motion, double time_s, StateVector& now) {

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
-#include "identify/data/actuator_inputs.h"
 #include "identify/data/recorded_motion.h"
 #include "sim/layout/layout_vehicle.h"
 
@@ -28,19 +26,9 @@ struct MotionPoint {
 [[nodiscard]] bool is_sane(const sim::Body& body);
 [[nodiscard]] MotionPoint point_of(const StateVector& state);
 
-/// A motion at equal steps of time.
-struct ReplayedMotion {
-  static constexpr double kStep_s = 0.01;
-
-  double begin_s = 0;
-  std::vector<MotionPoint> points;  ///< one at the begin of each step, and one at the end of the last
-
-  /// Velocity by cubic interpolation with the accelerations, all else linear.
-  [[nodiscard]] MotionPoint at(double time_s) const;
-};
-
-/// Fills in the lagged tilt of all points but the first.
-void add_lagged_tilt(ReplayedMotion& motion, double lag_s);
+/// Tilt that a sensor with a first-order lag shows a step later: exact where the tilt is linear over the step.
+[[nodiscard]] Eigen::Vector2d lagged_tilt(const Eigen::Vector2d& shown, const Eigen::Vector2d& then,
+                                          const Eigen::Vector2d& now, double lag_s, double step_s);
 
 /// Sets what the readings next to a time measure: position, attitude, rates, and the velocity of a Doppler log.
 /// All else stays as it is, but for the lagged tilt, which becomes that of the body.

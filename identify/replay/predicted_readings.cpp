@@ -110,18 +110,4 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
   for (const ChannelReading& reading : readings) *out++ = predict(reading.channel);
 }
 
-Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
-                                              const std::vector<ChannelReading>& readings,
-                                              const Calibration& calibration) const {
-  const Eigen::Vector3d current(get(calibration, Nuisance::current_north),
-                                get(calibration, Nuisance::current_east), 0);
-  Eigen::VectorXd predicted(static_cast<Eigen::Index>(readings.size()));
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const double time_s = readings[i].time_s;
-    at(motion.at(time_s), (time_s - motion.begin_s) * current, std::span(&readings[i], 1), calibration,
-       predicted.data() + i);
-  }
-  return predicted;
-}
-
 }  // namespace navcal::identify

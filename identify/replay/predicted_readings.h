@@ -7,7 +7,7 @@
 
 #include "identify/data/recorded_motion.h"
 #include "identify/replay/calibration.h"
-#include "identify/replay/replayed_motion.h"
+#include "identify/replay/motion_point.h"
 
 namespace navcal::identify {
 
@@ -17,7 +17,7 @@ struct ChannelReading {
   double time_s, value, std;
 };
 
-/// What the instruments of a recording read on a replayed motion. With nu = (v, omega) through the water, R the
+/// What the instruments of a recording read at a point of a motion. With nu = (v, omega) through the water, R the
 /// rotation from body to world, c the current, r the instrument's place, and the nuisances by their names:
 ///   rates     (1 + scale)(1 - turn x) omega + bias
 ///   force     (1 - turn x)(v' + omega x v + omega' x r + omega x (omega x r) - R^T g) + bias
@@ -30,12 +30,8 @@ class PredictedReadings {
  public:
   explicit PredictedReadings(const RecordedMotion& recorded) : recorded_(recorded) {}
 
-  /// One number for each reading; the readings lie within the motion.
-  [[nodiscard]] Eigen::VectorXd operator()(const ReplayedMotion& motion,
-                                           const std::vector<ChannelReading>& readings,
-                                           const Calibration& calibration) const;
-  /// The same at one instant, with the distance that the water has carried the vehicle (c t above). One number for
-  /// each reading goes to `out`.
+  /// One number for each reading to `out`; `carried_m` is the distance that the water has carried the vehicle (c t
+  /// above).
   void at(const MotionPoint& point, const Eigen::Vector3d& carried_m, std::span<const ChannelReading> readings,
           const Calibration& calibration, double* out) const;
 

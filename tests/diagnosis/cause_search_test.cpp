@@ -121,31 +121,6 @@ TEST(SetEvidence, ThePosteriorHoldsTheTruthAsOftenAsItSays) {
   EXPECT_NEAR(within, 0.683 * kCases, 4 * std::sqrt(kCases * 0.683 * 0.317));
 }
 
-TEST(Causes, TheScaleOfAnAxisThatHardlyTurnedIsNotJudged) {
-  const auto of = identify::vehicle_case("rov");
-  const auto scales_of = [&](double pitch_rate_rad_s, double yaw_rate_rad_s) {
-    identify::RecordedMotion recording;
-    for (int i = 0; i < 200; ++i) {
-      const double wave = std::sin(0.1 * i);
-      for (const auto& [channel, rate] : {std::pair{identify::Channel::rate_x, 0.001},
-                                          {identify::Channel::rate_y, pitch_rate_rad_s},
-                                          {identify::Channel::rate_z, yaw_rate_rad_s}})
-        recording.channels[static_cast<std::size_t>(channel)].push_back({0.1 * i, 0.3 + rate * wave, 0.01});
-    }
-    std::string names;
-    for (const Cause& cause : causes_of(of.prior, recording, {}).causes) {
-      for (const CauseParameter& parameter : cause.parameters) {
-        if (cause.name == "gyro_scale") names += parameter.name + " ";
-      }
-    }
-    return names;
-  };
-  EXPECT_EQ(scales_of(0.05, 0.2), "scale_az ")
-      << "0.2 rad/s and an axis askew by a degree: 0.0035, 3 % of 0.05: 0.0015";
-  EXPECT_EQ(scales_of(0.2, 0.2), "scale_by scale_az ");
-  EXPECT_EQ(scales_of(0.2, 0.01), "scale_by ");
-}
-
 TEST(Causes, EveryEffectOfEveryPartIsOneCause) {
   const auto of = identify::vehicle_case("rov");
   identify::RecordedMotion recording;
