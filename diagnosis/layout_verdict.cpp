@@ -93,9 +93,8 @@ std::optional<std::string> objection(const LayoutEvidence& evidence, const Membe
   const Cause& cause = evidence.library.causes[member.cause];
   const double chance_nats = evidence.bank.chance_nats[member.cause];
   if (member.lead_nats < evidence.bank.leads.named_nats + chance_nats) {
-    return fmt::format(
-        "the most probable cause, {}, leads by {:.0f} nats only, and by {:.0f} in nominal recordings",
-        cause.words(), member.lead_nats, chance_nats);
+    return fmt::format("the most probable cause, {}, leads by {:.0f} nats only; a name takes {:.0f}",
+                       cause.words(), member.lead_nats, evidence.bank.leads.named_nats + chance_nats);
   }
   double presence = 0;
   // What an actuator can lose in full, as a dead one does, it can lose by any part.
@@ -132,7 +131,8 @@ std::vector<gap::Alternative> alternatives_of(const LayoutEvidence& evidence) {
   const auto& sets = evidence.found.sets;
   std::vector<gap::Alternative> all;
   for (const ScoredSet& one : sets) {
-    if (sets.front().log_odds - one.log_odds >= evidence.bank.leads.named_nats || all.size() == kMostAlternatives)
+    if (sets.front().log_odds - one.log_odds >= evidence.bank.leads.named_nats ||
+        one.probability < kLeastCandidate || all.size() == kMostAlternatives)
       break;
     if (one.causes.empty()) continue;
     const gap::Closure closure = evidence.closure(one.causes);

@@ -133,6 +133,7 @@ TEST(LayoutVerdict, CausesThatCannotBeToldApartAreOneAnswer) {
 TEST(LayoutVerdict, ACauseWithProbableRivalsIsNotNamed) {
   Searched searched;
   searched.found.sets[1].log_odds = 30;
+  searched.found.sets[1].probability = 0.02;
   expect_unknown(searched, "first of thruster.1 (probability 0.99, 98 % closed), or second of thruster.1");
   const gap::Diagnosis answer = searched.verdict();
   EXPECT_EQ(answer.kind, gap::UnknownKind::ambiguous);
@@ -141,6 +142,17 @@ TEST(LayoutVerdict, ACauseWithProbableRivalsIsNotNamed) {
   EXPECT_NE(answer.unexplained.at(0).find("leads by 10 nats only"), std::string::npos);
   searched.after.mean_square = 1.4;
   EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::outside) << "none of them describes the recording";
+}
+
+// "Ambiguous: ... (probability 1.00), or ... (probability 0.00)" was said of a lead that was too small for a name.
+TEST(LayoutVerdict, ALeadThatIsTooSmallForANameIsNotAmbiguousWithWhatIsImprobable) {
+  Searched searched;
+  searched.found.sets[1].log_odds = 30;
+  searched.found.sets[1].probability = 0.0001;
+  expect_unknown(searched,
+                 "The cause cannot be said: the most probable cause, first of thruster.1, leads by 10 nats "
+                 "only; a name takes 15");
+  EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::cannot_say);
 }
 
 // Which set is the best is open; that the first cause belongs to it is not.
@@ -172,7 +184,7 @@ TEST(LayoutVerdict, AWeakActuatorInPlaceOfADeadOneIsNoRival) {
 TEST(LayoutVerdict, ACauseThatNominalRecordingsHaveByChanceIsNotNamed) {
   Searched searched;
   searched.bank.chance_nats[0] = 30;
-  expect_unknown(searched, "and by 30 in nominal recordings");
+  expect_unknown(searched, "nats only; a name takes 45");
 }
 
 TEST(LayoutVerdict, WithoutNominalRecordingsNothingIsNamed) {
