@@ -376,7 +376,10 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     answer.effects.clear();
     if (kind == gap::UnknownKind::cannot_say) answer.alternatives = alternatives_of(evidence);
     if (!answer.alternatives.empty()) kind = gap::UnknownKind::ambiguous;
-    return say_unknown(kind, reason, louder, answer);
+    say_unknown(kind, reason, louder, answer);
+    if (leads && kind == gap::UnknownKind::cannot_say)
+      answer.sentence = fmt::format("There is a gap, but its cause cannot be said: {}.", reason);
+    return;
   }
   answer.verdict = gap::Verdict::explained;
   answer.sentence = fmt::format("The gap is explained by {}.", names_of(answer.effects));

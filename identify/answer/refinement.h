@@ -13,7 +13,7 @@ namespace navcal::identify {
 
 struct Refinement {
   Eigen::VectorXd parameters;
-  Eigen::MatrixXd covariance;
+  Eigen::MatrixXd covariance;  ///< inverse of the information, in the parameters' units
   /// Errors of predictions, after over before: geometric mean over the horizons, with what the fit's freedom
   /// hides.
   double error_ratio = 1;

@@ -150,7 +150,8 @@ TEST(LayoutVerdict, ALeadThatIsTooSmallForANameIsNotAmbiguousWithWhatIsImprobabl
   searched.found.sets[1].log_odds = 30;
   searched.found.sets[1].probability = 0.0001;
   expect_unknown(searched,
-                 "The cause cannot be said: the most probable cause, first of thruster.1, leads by 10 nats "
+                 "There is a gap, but its cause cannot be said: the most probable cause, first of thruster.1, "
+                 "leads by 10 nats "
                  "only; a name takes 15");
   EXPECT_EQ(searched.verdict().kind, gap::UnknownKind::cannot_say);
 }
