@@ -20,7 +20,7 @@ constexpr double kLeftOut_s = 5;   ///< before a place where it diverges
 constexpr double kRunIn_s = 1;     ///< what the actuators did before the recording is not known
 /// Pitch of simulated vehicles that begin under way, mean square of the innovations: 1.09 behind 1 and 2 s.
 constexpr double kSettling_s = 3;
-constexpr double kEvidence_s = 1;  ///< at least, of readings behind that
+constexpr double kEvidence_s = 1;     ///< at least, of readings behind that
 constexpr double kColumnPart = 1e-3;  ///< of a prior's standard deviation
 constexpr double kDelayColumn_s = 0.005;
 
