@@ -67,6 +67,12 @@ Parameter parameter_of(const config::LayoutUncertainty& about, const config::Lay
   return parameter;
 }
 
+Eigen::VectorXd of_each(std::span<const Parameter> parameters, double Parameter::*member) {
+  Eigen::VectorXd all(std::ssize(parameters));
+  for (std::size_t i = 0; i < parameters.size(); ++i) all[static_cast<Eigen::Index>(i)] = parameters[i].*member;
+  return all;
+}
+
 }  // namespace
 
 std::vector<Parameter> uncertain_parameters(const config::Layout& layout) {
@@ -138,15 +144,19 @@ config::Layout with_estimates(config::Layout layout, std::span<const Parameter> 
 }
 
 Eigen::VectorXd prior_values(std::span<const Parameter> parameters) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
-  for (std::size_t i = 0; i < parameters.size(); ++i) values[static_cast<Eigen::Index>(i)] = parameters[i].prior;
-  return values;
+  return of_each(parameters, &Parameter::prior);
 }
 
 Eigen::VectorXd prior_stds(std::span<const Parameter> parameters) {
-  Eigen::VectorXd stds(static_cast<Eigen::Index>(parameters.size()));
-  for (std::size_t i = 0; i < parameters.size(); ++i) stds[static_cast<Eigen::Index>(i)] = parameters[i].prior_std;
-  return stds;
+  return of_each(parameters, &Parameter::prior_std);
+}
+
+Eigen::VectorXd lower_bounds(std::span<const Parameter> parameters) {
+  return of_each(parameters, &Parameter::low);
+}
+
+Eigen::VectorXd upper_bounds(std::span<const Parameter> parameters) {
+  return of_each(parameters, &Parameter::high);
 }
 
 bool moves_actuators(const Parameter& parameter) {

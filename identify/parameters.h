@@ -41,6 +41,8 @@ struct Parameter {
 
 [[nodiscard]] Eigen::VectorXd prior_values(std::span<const Parameter> parameters);
 [[nodiscard]] Eigen::VectorXd prior_stds(std::span<const Parameter> parameters);
+[[nodiscard]] Eigen::VectorXd lower_bounds(std::span<const Parameter> parameters);
+[[nodiscard]] Eigen::VectorXd upper_bounds(std::span<const Parameter> parameters);
 
 /// Whether the position of an actuator depends on the parameter for given commands.
 [[nodiscard]] bool moves_actuators(const Parameter& parameter);

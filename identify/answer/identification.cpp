@@ -201,8 +201,7 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
   }
 }
 
-/// Where the filter's likelihood is in doubt, and no controller steers the vehicle, predictions have the last
-/// word.
+/// Replaces the estimate by parameters that predict the recordings better, unless a controller steers the vehicle.
 void refine(const IdentifyRequest& request, PredictionErrorProblem& problem, Estimate& found,
             Identification& answer, const FitProgress& progress) {
   for (std::size_t r = 0; r < problem.filters().size(); ++r)

@@ -61,20 +61,15 @@ std::optional<Refinement> refined(const config::Layout& prior, const std::vector
   };
   const Eigen::Index count = start.size();
   const Eigen::VectorXd priors = prior_values(parameters);
-  Eigen::VectorXd precision(count), low(count), high(count);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto to = static_cast<Eigen::Index>(i);
-    precision[to] = 1 / (parameters[i].prior_std * parameters[i].prior_std);
-    low[to] = parameters[i].low;
-    high[to] = parameters[i].high;
-  }
+  const Eigen::VectorXd precision = prior_stds(parameters).cwiseAbs2().cwiseInverse();
+  const Eigen::VectorXd low = lower_bounds(parameters), high = upper_bounds(parameters);
   Refinement answer{std::move(start), {}, 1};
   Eigen::VectorXd& here = answer.parameters;
   Errors errors = at(here);
   if (!errors || errors->empty()) return std::nullopt;
   const Scales before = scales_of(*errors);
   const double independent = over(before, *errors).squaredNorm();  // that is the sum of the squared weights
-  // What a fit of so many numbers leaves is smaller than the errors are.
+  // A fit of so many numbers leaves residuals that are smaller than the errors, by this factor.
   const auto left_by_fit = [&] {
     const double told = static_cast<double>(count) - precision.dot(answer.covariance.diagonal());
     return std::sqrt(std::max(1 - told / independent, 0.25));

@@ -58,12 +58,10 @@ PredictionErrorProblem::PredictionErrorProblem(const config::Layout& layout,
   precision_.resize(n);
   low_ = Eigen::VectorXd::Constant(n, -kUnbounded);
   high_ = -low_;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    precision_[at] = 1 / (parameters[i].prior_std * parameters[i].prior_std);
-    low_[at] = parameters[i].low;
-    high_[at] = parameters[i].high;
-  }
+  const Eigen::Index count = nuisances_at(0);
+  precision_.head(count) = prior_stds(parameters).cwiseAbs2().cwiseInverse();
+  low_.head(count) = lower_bounds(parameters);
+  high_.head(count) = upper_bounds(parameters);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     precision_.segment<kNuisances>(nuisances_at(r)) =
         estimated_nuisance_stds(filters_[r]).cwiseAbs2().cwiseInverse();

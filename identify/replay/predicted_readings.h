@@ -17,7 +17,7 @@ struct ChannelReading {
   double time_s, value, std;
 };
 
-/// What the instruments of a recording read at a point of a motion. With nu = (v, omega) through the water, R the
+/// Readings of a recording's instruments at a point of a motion. With nu = (v, omega) through the water, R the
 /// rotation from body to world, c the current, r the instrument's place, and the nuisances by their names:
 ///   rates     (1 + scale)(1 - turn x) omega + bias
 ///   force     (1 - turn x)(v' + omega x v + omega' x r + omega x (omega x r) - R^T g) + bias
