@@ -103,9 +103,6 @@ FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrar
                                  unsigned threads)
     : library_(library), filter_(layout, library.parameters, recording, noises, threads) {
   for (Eigen::Index i = 0; i < library.columns(); ++i) columns_.push_back({i});
-  // A late actuator is no derivative, and a delay of less than a step of the commands none at all.
-  columns_[library.parameters.size() + static_cast<std::size_t>(identify::Nuisance::actuator_delay)].step =
-      kDelayStep_s;
   filter_.leave_out_diverging(filter_.start());
 }
 

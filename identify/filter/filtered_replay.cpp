@@ -345,7 +345,7 @@ FilterLinearised FilteredReplay::linearise(const FilterPass& pass, const Eigen::
       step = parameter->step > 0 ? parameter->step : kColumnPart * parameter->prior_std;
       if (values[at] + step > parameter->high) step = -step;
       // An effect that cannot be negative is not linear; a dead band that no command lies in has no slope at all.
-      if (parameter->change && parameter->low == 0 && values[at] > step / 2) step = -values[at];
+      if (parameter->change && parameter->low == 0 && values[at] > step / 4) step = -values[at] / 4;
     } else if (step == 0) {
       const bool is_delay = at - parameters == static_cast<Eigen::Index>(Nuisance::actuator_delay);
       step = is_delay ? kDelayColumn_s : kColumnPart * stds[at - parameters];
