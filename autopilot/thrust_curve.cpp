@@ -56,9 +56,10 @@ Thrust thrust_at(const config::LayoutThruster& thruster, double density_kg_m3, d
 
 double effective_command(const config::LayoutThruster& thruster, double command) {
   const double within = std::clamp(command, thruster.low, thruster.high);
-  return std::abs(within - thruster.neutral()) < thruster.dead_band
-             ? std::clamp(thruster.neutral(), thruster.low, thruster.high)
-             : within;
+  const double neutral = std::clamp(thruster.neutral(), thruster.low, thruster.high);
+  const double beyond = std::abs(within - thruster.neutral()) - thruster.dead_band, edge = thruster.dead_band_edge;
+  if (beyond >= edge) return within;
+  return beyond <= -edge ? neutral : neutral + (beyond + edge) / (2 * edge) * (within - neutral);
 }
 
 double command_for(const config::LayoutThruster& thruster, double density_kg_m3, double force_N,

@@ -19,7 +19,7 @@ struct Thrust {
 [[nodiscard]] Thrust thrust_at(const config::LayoutThruster& thruster, double density_kg_m3, double position,
                                double advance_m_s);
 
-/// The command within its limits; neutral within the dead band.
+/// The command within its limits; neutral within the dead band, and in part across the width of its end.
 [[nodiscard]] double effective_command(const config::LayoutThruster& thruster, double command);
 
 /// The command within limits whose thrust comes nearest to the wanted one. Beyond what the thruster gives, its

@@ -131,6 +131,7 @@ struct LayoutThruster {
   double torque_share = 1;        ///< share of the torque that acts on the hull
   bool is_left_handed = false;    ///< the reaction turns the hull about +direction when it thrusts forwards
   double dead_band = 0;           ///< commands nearer to neutral than this are neutral
+  double dead_band_edge = 0;      ///< half width of its end, within which a command acts in part; of fits only
   double lag_s = 0.1;
   double low = 0, high = 0;  ///< limits of the command
   LayoutHeard heard{};

@@ -14,6 +14,10 @@
 namespace navcal::identify {
 namespace {
 
+/// Half width of the end of a dead band, as part of half the command's range. Where a dead band ends is not known
+/// better, and a command that crosses a sharp end makes a jump, which has no slope.
+constexpr double kSoftEdge = 0.02;
+
 /// The value that holds at a time; `at` is where the search of the time before ended.
 double held_at(const Signal& signal, double time_s, std::size_t& at) {
   while (at + 1 < signal.times_s.size() && signal.times_s[at + 1] <= time_s) ++at;
@@ -231,6 +235,11 @@ std::vector<std::string> ActuatorInputs::oddities(const config::Layout& layout) 
 ActuatorTrajectory ActuatorInputs::trajectory(const config::Layout& layout) const {
   const auto rows = static_cast<std::size_t>(std::ceil(motion_.duration_s / ActuatorTrajectory::kStep_s)) + 3;
   ActuatorTrajectory trajectory(layout, rows);
+  config::Layout soft = layout;
+  for (config::LayoutThruster& thruster : soft.thrusters) {
+    if (thruster.dead_band > 0)
+      thruster.dead_band_edge = std::min(thruster.dead_band, kSoftEdge * (thruster.high - thruster.low) / 2);
+  }
   // Where a card reported all fins: angles between its reports by the servo's lag
   // (gap/actuators/actuator_track.h).
   std::optional<gap::ActuatorTrack> track;
@@ -274,7 +283,7 @@ ActuatorTrajectory ActuatorInputs::trajectory(const config::Layout& layout) cons
     const double time_s = ActuatorTrajectory::kStep_s * static_cast<double>(row);
     // The command of the middle of the step leads to its end.
     read(time_s - ActuatorTrajectory::kStep_s / 2, false);
-    if (row > 0) positions = sim::follow(layout, positions, commands, ActuatorTrajectory::kStep_s);
+    if (row > 0) positions = sim::follow(soft, positions, commands, ActuatorTrajectory::kStep_s);
     read(time_s, true);
     if (track) {
       const auto& fins_rad = track->rows()[std::min(row, track->rows().size() - 1)].fins_rad;
