@@ -19,8 +19,6 @@ using gap::kMostEffects;
 /// cannot be negative is not linear about zero (a dead band, a lag, a dead actuator): its difference takes a
 /// typical strength.
 inline constexpr double kEffectStep = 0.01, kOneSidedStep = 1;
-/// The same of the actuators' delay: several steps of their commands.
-inline constexpr double kDelayStep_s = 0.08;
 /// Passes over the nominal recordings: each is linearised again at the estimate by all of them. The noises are
 /// fitted in the first ones.
 inline constexpr std::size_t kNominalRounds = 3, kNoiseRounds = 2;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnosis/limits.h"
 
@@ -101,8 +102,9 @@ Eigen::VectorXd values_within(const CauseLibrary& library, const Eigen::VectorXd
 FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrary& library,
                                  const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
                                  unsigned threads)
-    : library_(library), filter_(layout, library.parameters, recording, noises, threads) {
-  for (Eigen::Index i = 0; i < library.columns(); ++i) columns_.push_back({i});
+    : library_(library), filter_(layout, library.parameters, recording, noises, threads),
+      columns_(static_cast<std::size_t>(library.columns())) {
+  std::iota(columns_.begin(), columns_.end(), Eigen::Index{0});
   filter_.leave_out_diverging(filter_.start());
 }
 

@@ -192,7 +192,7 @@ class FittedRecording final : public RecordingModel {
 
   const CauseLibrary& library_;
   identify::FilteredReplay filter_;
-  std::vector<identify::FilterColumn> columns_;
+  std::vector<Eigen::Index> columns_;
   std::optional<identify::FilterPass> held_;
 };
 

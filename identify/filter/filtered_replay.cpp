@@ -321,14 +321,14 @@ Eigen::VectorXd FilteredReplay::replayed(const FilterPass& pass, const FilterMod
 }
 
 std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& values,
-                                                          std::span<const FilterColumn> columns) const {
+                                                          std::span<const Eigen::Index> columns) const {
   Eigen::VectorXd white = replayed(pass, values);
   if (white.size() == 0) return std::nullopt;
   return linearise(pass, values, std::move(white), columns);
 }
 
 FilterLinearised FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& at_values,
-                                           Eigen::VectorXd white, std::span<const FilterColumn> columns) const {
+                                           Eigen::VectorXd white, std::span<const Eigen::Index> columns) const {
   FilterLinearised out{{}, std::move(white), 0, pass.log_det()};
   out.power = out.white.squaredNorm();
   out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
@@ -336,30 +336,39 @@ FilterLinearised FilteredReplay::linearise(const FilterPass& pass, const Eigen::
   const auto parameters = std::ssize(parameters_);
   const Calibration stds = nuisance_stds(recorded_);
   base::in_parallel(threads_, columns.size(), [&](std::size_t c) {
-    const Eigen::Index at = columns[c].value;
-    double step = columns[c].step;
-    Eigen::VectorXd values = at_values;
+    const Eigen::Index at = columns[c];
     const Parameter* parameter = at < parameters ? &parameters_[static_cast<std::size_t>(at)] : nullptr;
     if (parameter == nullptr && !matters(static_cast<Nuisance>(at - parameters))) return;
-    if (step == 0 && parameter != nullptr) {
-      step = parameter->step > 0 ? parameter->step : kColumnPart * parameter->prior_std;
-      if (values[at] + step > parameter->high) step = -step;
-      // An effect that cannot be negative is not linear; a dead band that no command lies in has no slope at all.
-      if (parameter->change && parameter->low == 0 && values[at] > step / 4) step = -values[at] / 4;
-    } else if (step == 0) {
+    const auto slope = [&](double step) -> Eigen::VectorXd {
+      Eigen::VectorXd values = at_values;
+      values[at] += step;
+      std::optional<Driven> moved;
+      if (parameter != nullptr) {
+        const config::Layout layout = with_values(layout_, parameters_, values.head(parameters));
+        moved = {sim::LayoutVehicle(layout),
+                 moves_actuators(*parameter)
+                     ? std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))
+                     : nominal.actuators};
+      }
+      const Eigen::VectorXd there = replayed(pass, model_of(moved ? *moved : nominal, values));
+      if (there.size() == 0) return Eigen::VectorXd::Zero(out.count());
+      return (there - out.white) / step;
+    };
+    auto column = out.jacobian.col(static_cast<Eigen::Index>(c));
+    if (parameter == nullptr) {
       const bool is_delay = at - parameters == static_cast<Eigen::Index>(Nuisance::actuator_delay);
-      step = is_delay ? kDelayColumn_s : kColumnPart * stds[at - parameters];
+      column = slope(is_delay ? kDelayColumn_s : kColumnPart * stds[at - parameters]);
+      return;
     }
-    values[at] += step;
-    std::optional<Driven> moved;
-    if (parameter != nullptr) {
-      const config::Layout layout = with_values(layout_, parameters_, values.head(parameters));
-      moved = {sim::LayoutVehicle(layout),
-               moves_actuators(*parameter) ? std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))
-                                           : nominal.actuators};
+    const double step = parameter->step > 0 ? parameter->step : kColumnPart * parameter->prior_std;
+    // An effect that cannot be negative is not linear about zero; away from zero it is, but for a dead band in
+    // whose end no command lies.
+    if (parameter->change && parameter->low == 0 && at_values[at] > step / 4) {
+      column = slope(-at_values[at] / 4);
+      if (column.isZero(0)) column = slope(-at_values[at]);
+    } else {
+      column = slope(at_values[at] + step > parameter->high ? -step : step);
     }
-    const Eigen::VectorXd there = replayed(pass, model_of(moved ? *moved : nominal, values));
-    if (there.size() > 0) out.jacobian.col(static_cast<Eigen::Index>(c)) = (there - out.white) / step;
   });
   return out;
 }

@@ -45,13 +45,6 @@ struct FilterPass {
   [[nodiscard]] double cost() const { return power() + log_det(); }
 };
 
-/// One unknown of a linearisation: its place among the values, and the step of its difference in its unit; 0: a
-/// small one. A large step makes a secant, for what is not linear (a delay, a reversed actuator).
-struct FilterColumn {
-  Eigen::Index value;
-  double step = 0;
-};
-
 /// White innovations r at some values and their derivatives J by some of them, the gains held:
 ///   log p(values + dx) = const + score . dx - dx . information dx / 2,  score = -J^T r, information = J^T J,
 ///   const = -(power + log_det)/2.
@@ -88,14 +81,14 @@ class FilteredReplay {
   [[nodiscard]] std::optional<FilterPass> follow(const Eigen::VectorXd& values) const;
   /// White innovations of other values with the gains of a pass; empty where the vehicle leaves all bounds.
   [[nodiscard]] Eigen::VectorXd replayed(const FilterPass& pass, const Eigen::VectorXd& values) const;
-  /// The same of a pass's own values, with one replay for each column. A column whose replay leaves all bounds is
-  /// zero: the recording says nothing of it here.
-  [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, std::span<const FilterColumn> columns) const {
+  /// The same of a pass's own values, with one replay for each column, a place among the values. A column whose
+  /// replay leaves all bounds is zero: the recording says nothing of it here.
+  [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, std::span<const Eigen::Index> columns) const {
     return linearise(pass, pass.values, pass.white(), columns);
   }
   /// Linearises other values with the gains of the pass. nullopt: the vehicle leaves all bounds with these values.
   [[nodiscard]] std::optional<FilterLinearised> linearise(const FilterPass& pass, const Eigen::VectorXd& values,
-                                                          std::span<const FilterColumn> columns) const;
+                                                          std::span<const Eigen::Index> columns) const;
 
   /// The innovations of a pass under other noises, its derivatives held: no call of the model. `out` has the
   /// readings' variances and white innovations; its other members stay as they are.
@@ -141,7 +134,7 @@ class FilteredReplay {
   [[nodiscard]] std::vector<double> run(const Eigen::VectorXd& values, FilterPass& pass, std::size_t most) const;
   [[nodiscard]] Eigen::VectorXd replayed(const FilterPass& pass, const FilterModel& model) const;
   [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, const Eigen::VectorXd& values,
-                                           Eigen::VectorXd white, std::span<const FilterColumn> columns) const;
+                                           Eigen::VectorXd white, std::span<const Eigen::Index> columns) const;
 
   config::Layout layout_;
   std::vector<Parameter> parameters_;

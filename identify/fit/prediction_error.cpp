@@ -105,15 +105,14 @@ PredictionErrorProblem::Linearised PredictionErrorProblem::linearise(const Point
   Linearised all{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), {}, {}, {}};
   std::vector<Eigen::VectorXd> blocks;
   for (std::size_t r = 0; r < filters_.size(); ++r) {
-    std::vector<FilterColumn> columns;
-    std::vector<Eigen::Index> places;
+    std::vector<Eigen::Index> columns, places;
     for (Eigen::Index i = 0; i < parameters; ++i) {
-      columns.push_back({i});
+      columns.push_back(i);
       places.push_back(i);
     }
     for (Eigen::Index i = 0; i < kNuisances; ++i) {
       if (!filters_[r].matters(static_cast<Nuisance>(i))) continue;
-      columns.push_back({std::ssize(this->parameters()) + i});
+      columns.push_back(std::ssize(this->parameters()) + i);
       places.push_back(nuisances_at(r) + i);
     }
     const FilterLinearised linear = filters_[r].linearise(point.passes[r], columns);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "diagnosis/nominal_bank.h"
 #include "tests/diagnosis/micro_case.h"
 
@@ -33,6 +35,39 @@ TEST(RecordingFit, ItsValueFollowsItsScoreWhereGainsAreHeld) {
     ++tried;
   }
   EXPECT_GE(tried, 8);
+}
+
+// Over 80 ms a delay was a secant whose sign was that of the other slope: each fit led away from the next one, and
+// true causes lost their leads. The same of a lag that was fitted from its estimate back to zero.
+TEST(RecordingFit, TheSlopesOfADelayAndOfALagAreThoseWhereTheyAre) {
+  const auto of = micro();
+  const identify::RecordedMotion slow = recording(of, changed(of.prior, "thruster_lag", "thruster.1", {0.3}), 3);
+  const CauseLibrary library = causes_of(of.prior, slow, {});
+  FittedRecording fitted(of.prior, library, slow, {}, 1);
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(library.columns());
+  fitted.hold_gains(at);
+  for (const Cause& cause : library.causes) {
+    if (cause.words() == "thruster_lag of thruster.1") at[cause.parameters[0].column] = 0.25;
+  }
+  const auto here = fitted.fit(at);
+  ASSERT_TRUE(here);
+  int tried = 0;
+  for (const Cause& cause : library.causes) {
+    if (cause.name != "actuator_delay" && cause.words() != "thruster_lag of thruster.1") continue;
+    const Eigen::Index column = cause.parameters[0].column;
+    const double sigma = 1 / std::sqrt(here->linear.information(column, column));
+    for (const double step : {-2 * sigma, 2 * sigma}) {
+      Eigen::VectorXd apart = at;
+      apart[column] += step;
+      const auto there = fitted.fit(apart);
+      ASSERT_TRUE(there) << cause.words();
+      const double by_line = here->linear.about(apart).value - here->linear.about(at).value;
+      const double found = there->linear.about(apart).value - here->linear.about(at).value;
+      EXPECT_NEAR(found, by_line, 1 + 0.3 * std::abs(by_line)) << cause.words() << ", " << step;
+      ++tried;
+    }
+  }
+  EXPECT_EQ(tried, 4);
 }
 
 /// Departures of one column, told with this information by each recording.

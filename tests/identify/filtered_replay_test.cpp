@@ -83,13 +83,11 @@ TEST(FilteredReplay, LinearisationPredictsTheInnovationsOfOtherValues) {
   const auto pass = filter.follow(filter.start());
   ASSERT_TRUE(pass.has_value());
   Eigen::VectorXd values = filter.start();
-  std::vector<FilterColumn> columns;
-  for (const Eigen::Index i : {Eigen::Index{0}, parameters - 2, bias}) columns.push_back({i});
+  const std::vector<Eigen::Index> columns{0, parameters - 2, bias};
   const FilterLinearised linear = filter.linearise(*pass, columns);
   Eigen::VectorXd change(3);
   change << 0.005, 0.01, 0.001;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    values[columns[i].value] += change[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < columns.size(); ++i) values[columns[i]] += change[static_cast<Eigen::Index>(i)];
   const Eigen::VectorXd exact = filter.replayed(*pass, values) - linear.white;
   EXPECT_LT((linear.jacobian * change - exact).norm(), 0.05 * exact.norm());
   EXPECT_EQ(linear.count(), static_cast<Eigen::Index>(filter.readings().size()));
@@ -97,7 +95,7 @@ TEST(FilteredReplay, LinearisationPredictsTheInnovationsOfOtherValues) {
 }
 
 // A dead band of 3 % that no command between it and 6 % told: its slope was zero there, and its estimate lost.
-TEST(FilteredReplay, AnEffectThatCannotBeNegativeHasItsSlopeFromZero) {
+TEST(FilteredReplay, AnEffectThatHasNoSlopeWhereItIsHasItFromZero) {
   const FilterExample example(8);
   Parameter half{"share", {}, 0, 1, 0, 10, {}, {}, {}, 1};
   half.change = [](config::Layout& layout, double value) {
@@ -109,7 +107,7 @@ TEST(FilteredReplay, AnEffectThatCannotBeNegativeHasItsSlopeFromZero) {
   values[0] = 2;
   const auto pass = filter.follow(values);
   ASSERT_TRUE(pass.has_value());
-  const std::vector<FilterColumn> column{{0}};
+  const std::vector<Eigen::Index> column{0};
   const FilterLinearised linear = filter.linearise(*pass, column);
   const Eigen::VectorXd at_zero = filter.replayed(*pass, filter.start());
   EXPECT_GT(linear.jacobian.norm(), 1);
