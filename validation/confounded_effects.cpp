@@ -101,14 +101,16 @@ std::vector<TrialSignature> all_signatures() {
 
 /// Effects of a vehicle with thrusters that leave nearly the same traces.
 bool is_pair(std::string_view a, std::string_view b) {
-  constexpr std::array<ConfoundedEffects, 8> kPairs{{{"weight", "buoyancy"},
-                                                     {"weight", "gravity_shift"},
-                                                     {"buoyancy", "gravity_shift"},
-                                                     {"gravity_shift", "tilt_offset"},
-                                                     {"damping", "thrust_scale"},
-                                                     {"damping", "water_current"},
-                                                     {"added_mass", "weight"},
-                                                     {"thruster_offset", "buoyancy"}}};
+  constexpr std::array<ConfoundedEffects, 10> kPairs{{{"weight", "buoyancy"},
+                                                      {"weight", "gravity_shift"},
+                                                      {"buoyancy", "gravity_shift"},
+                                                      {"buoyancy_shift", "gravity_shift"},
+                                                      {"hard_iron", "compass_deviation"},
+                                                      {"gravity_shift", "tilt_offset"},
+                                                      {"damping", "thrust_scale"},
+                                                      {"damping", "water_current"},
+                                                      {"added_mass", "weight"},
+                                                      {"thruster_offset", "buoyancy"}}};
   return std::any_of(kPairs.begin(), kPairs.end(), [&](const ConfoundedEffects& pair) {
     return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
   });

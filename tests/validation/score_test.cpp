@@ -295,6 +295,14 @@ TEST(GapTrialScore, WhatIsNotInTheLibraryOfALayoutCannotBeExact) {
   const validation::TrialCase removed = case_of_layout(validation::TrialArm::removed, {kHeavy}, "weight");
   EXPECT_EQ(outcome_of(removed, named({"buoyancy"})), in_class);
   EXPECT_EQ(outcome_of(removed, named({"compass_lag"})), wrong);
+  // The arm between the centres is one cause, and a hard iron is a deviation in the heading.
+  const validation::TrialEffect arm{"gravity_shift", {}, {{"x_m", 0.001}}};
+  EXPECT_EQ(
+      outcome_of(case_of_layout(validation::TrialArm::removed, {arm}, "gravity_shift"), named({"buoyancy_shift"})),
+      in_class);
+  const validation::TrialEffect iron{"hard_iron", {}, {{"x_uT", 1}}};
+  EXPECT_EQ(outcome_of(case_of_layout(validation::TrialArm::single, {iron}), named({"compass_deviation"})),
+            in_class);
   const auto foreign = case_of_layout(validation::TrialArm::foreign, {{"leak", {}, {{"N_s", 0.01}}}});
   EXPECT_EQ(outcome_of(foreign, named({"weight"})), wrong);
   EXPECT_TRUE(validation::judged(answered(foreign, verdict(validation::TrialVerdict::cannot_say))).right);

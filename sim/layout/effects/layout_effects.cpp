@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "autopilot/controllability.h"
 #include "base/angles.h"
@@ -55,6 +56,9 @@ double half_range(const config::LayoutThruster& thruster) {
 void shift(config::LayoutVector& place_m, Values by_m) {
   for (std::size_t i = 0; i < 3; ++i) place_m[i] += by_m[i];
 }
+
+/// Lags and dead bands end at zero.
+void add_to(double& number, double change) { number = std::max(number + change, 0.0); }
 
 void change_thrust_scale(Layout& layout, const Owner& owner, Values values) {
   // The thrust, not the torque. T0 - k sqrt(|T0|) u_a is scaled whole when k grows with the root.
@@ -108,12 +112,17 @@ constexpr std::array kLayoutEffects{
     Row{"fin_dead_band", "angles nearer to zero than b are zero", kLayoutAngleBand, surface, LayoutScale::one,
         "small doublets",
         [](Layout& l, const Owner& o, Values v) {
-          l.surfaces[o.index].dead_band_rad += v[0] * base::kRadiansPerDegree;
+          add_to(l.surfaces[o.index].dead_band_rad, v[0] * base::kRadiansPerDegree);
+        },
+        1,
+        [](const Layout& l, const Owner& o) {
+          return l.surfaces[o.index].dead_band_rad * base::kDegreesPerRadian;
         }},
     Row{"fin_gain", "d *= 1 + k", kLayoutGain, surface, LayoutScale::one, "doublets at several amplitudes",
         [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].heard.scale *= 1 + v[0]; }},
     Row{"fin_lag", "lag += tau", kLayoutTau, surface, LayoutScale::one, "fast doublets",
-        [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].lag_s += v[0]; }},
+        [](Layout& l, const Owner& o, Values v) { add_to(l.surfaces[o.index].lag_s, v[0]); }, 1,
+        [](const Layout& l, const Owner& o) { return l.surfaces[o.index].lag_s; }},
     Row{"fin_offset", "d += o", kLayoutAngle, surface, LayoutScale::one, "straight legs",
         [](Layout& l, const Owner& o, Values v) {
           l.surfaces[o.index].heard.offset += v[0] * base::kRadiansPerDegree;
@@ -132,10 +141,15 @@ constexpr std::array kLayoutEffects{
     Row{"thruster_dead_band", "dead band += b, in % of the command's range", kLayoutBand, thruster,
         LayoutScale::one, "small commands about neutral",
         [](Layout& l, const Owner& o, Values v) {
-          l.thrusters[o.index].dead_band += v[0] / 100 * half_range(l.thrusters[o.index]);
+          add_to(l.thrusters[o.index].dead_band, v[0] / 100 * half_range(l.thrusters[o.index]));
+        },
+        1,
+        [](const Layout& l, const Owner& o) {
+          return 100 * l.thrusters[o.index].dead_band / half_range(l.thrusters[o.index]);
         }},
     Row{"thruster_lag", "lag += tau", kLayoutTau, thruster, LayoutScale::one, "fast steps of the command",
-        [](Layout& l, const Owner& o, Values v) { l.thrusters[o.index].lag_s += v[0]; }},
+        [](Layout& l, const Owner& o, Values v) { add_to(l.thrusters[o.index].lag_s, v[0]); }, 1,
+        [](const Layout& l, const Owner& o) { return l.thrusters[o.index].lag_s; }},
     Row{"thruster_offset", "command += o, in % of its range", kLayoutPercent, thruster, LayoutScale::one,
         "hover, and steps up and down",
         [](Layout& l, const Owner& o, Values v) {
@@ -235,6 +249,12 @@ std::optional<std::string> owner_refusal(const config::Layout& layout, const Lay
 std::vector<EffectParameter> parameters_for(const config::Layout& layout, const LayoutEffectDescription& about) {
   std::vector<EffectParameter> parameters(about.parameters.begin(), about.parameters.end());
   for (EffectParameter& parameter : parameters) parameter.typical *= scale_value(layout, about.scale);
+  if (about.number != nullptr) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Owner& owner : named_owners(layout, about.part, {}))
+      least = std::min(least, about.number(layout, owner));
+    if (std::isfinite(least)) parameters.front().least = -least;
+  }
   return parameters;
 }
 

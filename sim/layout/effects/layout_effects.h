@@ -53,6 +53,8 @@ struct LayoutEffectDescription {
   void (*change)(config::Layout& layout, const LayoutOwner& owner, std::span<const double> values);
   /// Number of consecutive parameters that are the components of one vector.
   std::size_t vector = 1;
+  /// The layout's number that a lag or a dead band adds to, in the unit of the parameter: what it can lose.
+  double (*number)(const config::Layout& layout, const LayoutOwner& owner) = nullptr;
 };
 
 /// An effect with its size.
@@ -77,7 +79,7 @@ struct LayoutEffect {
 [[nodiscard]] std::optional<std::string> owner_refusal(const config::Layout& layout,
                                                        const LayoutEffectDescription& about, std::string_view of);
 
-/// The parameters with their typical sizes in this layout, in the units of their names.
+/// The parameters with their typical sizes and bounds in this layout, in the units of their names.
 [[nodiscard]] std::vector<EffectParameter> parameters_for(const config::Layout& layout,
                                                           const LayoutEffectDescription& about);
 

@@ -58,6 +58,20 @@ TEST(LayoutEffects, EachChangesALayoutThatCanBeWrittenAndReadAgain) {
   }
 }
 
+TEST(LayoutEffects, ALagAndADeadBandCanLoseWhatAllActuatorsHave) {
+  config::Layout layout = heavy_rov();
+  const auto &band = *find_layout_effect("thruster_dead_band"), &lag = *find_layout_effect("thruster_lag");
+  double least_s = 100;
+  for (const auto& thruster : layout.thrusters) least_s = std::min(least_s, thruster.lag_s);
+  EXPECT_EQ(parameters_for(layout, lag).front().least, -least_s);
+  const double least = parameters_for(layout, band).front().least;
+  EXPECT_LT(least, 0);
+  const config::Layout without = changed_layout(layout, effect_of("thruster_dead_band", "", {2 * least}));
+  for (const auto& thruster : without.thrusters) EXPECT_EQ(thruster.dead_band, 0);
+  layout.thrusters[3].dead_band = 0;
+  EXPECT_EQ(parameters_for(layout, band).front().least, 0);
+}
+
 TEST(LayoutEffects, BelongToTheActuatorThatTheyName) {
   const config::Layout nominal = heavy_rov();
   const auto& about = *find_layout_effect("thrust_scale");

@@ -193,6 +193,24 @@ TEST(ThrustCurve, ATableIsInterpolatedAndLosesForceUnderWay) {
   EXPECT_EQ(autopilot::effective_command(thruster, 2500), 1900);
 }
 
+TEST(ThrustCurve, ACommandActsInPartWhereADeadBandHasASoftEnd) {
+  auto thruster = esc();
+  thruster.dead_band_edge = 8;
+  const double band = thruster.dead_band;
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(autopilot::effective_command(thruster, 1500 + sign * (band - 8)), 1500);
+    EXPECT_NEAR(autopilot::effective_command(thruster, 1500 + sign * band), 1500 + sign * band / 2, 1e-9);
+    EXPECT_NEAR(autopilot::effective_command(thruster, 1500 + sign * (band + 8)), 1500 + sign * (band + 8), 1e-9);
+    double last = 0;
+    for (double away = 0; away < 2 * band; away += 0.1) {
+      const double acts = sign * (autopilot::effective_command(thruster, 1500 + sign * away) - 1500);
+      EXPECT_GE(acts, last);
+      EXPECT_LT(acts - last, 1) << "no jump";
+      last = acts;
+    }
+  }
+}
+
 TEST(ThrustCurve, TheCommandForAForceGivesIt) {
   for (const auto& thruster : {propeller(), esc()}) {
     for (const double advance_m_s : {-0.5, 0.0, 0.7}) {
