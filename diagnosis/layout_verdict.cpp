@@ -43,7 +43,6 @@ struct Member {
 
 Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
   const auto& sets = evidence.found.sets;
-  const CauseSet& best = sets.front().causes;
   std::vector<std::size_t> alike{cause};
   // A set with a weak actuator in place of a dead one is no set without it.
   for (std::size_t other = 0; other < evidence.library.causes.size(); ++other)
@@ -51,18 +50,24 @@ Member member_of(const LayoutEvidence& evidence, std::size_t cause) {
       alike.push_back(other);
   Member member{cause, {}, 0, std::numeric_limits<double>::infinity()};
   for (const ScoredSet& one : sets) {
-    const double behind_nats = sets.front().log_odds - one.log_odds;
-    if (behind_nats >= evidence.bank.leads.class_nats) break;
-    std::vector<std::size_t> differing;
-    std::set_symmetric_difference(one.causes.begin(), one.causes.end(), best.begin(), best.end(),
-                                  std::back_inserter(differing));
-    if (one.causes.size() != best.size() || differing.size() != 2 ||
-        std::find(differing.begin(), differing.end(), cause) == differing.end())
-      continue;
-    const std::size_t other = differing.front() == cause ? differing.back() : differing.front();
-    if (std::find(alike.begin(), alike.end(), other) == alike.end()) alike.push_back(other);
-    member.confused_with.push_back(
-        {evidence.library.causes[other].words(), evidence.library.causes[cause].manoeuvre, behind_nats});
+    if (sets.front().log_odds - one.log_odds >= evidence.bank.leads.class_nats) break;
+    if (!std::binary_search(one.causes.begin(), one.causes.end(), cause)) continue;
+    for (const ScoredSet& swapped : sets) {
+      const double behind_nats = one.log_odds - swapped.log_odds;
+      if (behind_nats >= evidence.bank.leads.class_nats) break;
+      std::vector<std::size_t> differing;
+      std::ranges::set_symmetric_difference(one.causes, swapped.causes, std::back_inserter(differing));
+      if (one.causes.size() != swapped.causes.size() || differing.size() != 2 ||
+          std::ranges::find(differing, cause) == differing.end())
+        continue;
+      const std::size_t other = differing.front() == cause ? differing.back() : differing.front();
+      const std::string words = evidence.library.causes[other].words();
+      if (std::ranges::find(member.confused_with, words, &gap::Confusion::name) != member.confused_with.end())
+        continue;
+      if (std::ranges::find(alike, other) == alike.end()) alike.push_back(other);
+      member.confused_with.push_back(
+          {words, evidence.library.causes[cause].manoeuvre, std::max(behind_nats, 0.0)});
+    }
   }
   for (const ScoredSet& one : sets) {
     const bool has =
@@ -85,16 +90,26 @@ std::string names_of(const std::vector<gap::EffectFinding>& effects) {
   return fmt::format("{}", fmt::join(words, " and "));
 }
 
+/// Log odds of the best set over no cause, nats.
+double lead_of_best(const CauseSearchResult& found) {
+  double lead_nats = found.sets.front().log_odds;
+  for (const ScoredSet& one : found.sets) {
+    if (one.causes.empty()) lead_nats -= one.log_odds;
+  }
+  return lead_nats;
+}
+
 /// Why a cause of the most probable set is not named, and of which kind its gap then is; empty where nothing
 /// speaks against it.
 std::optional<std::string> objection(const LayoutEvidence& evidence, const Member& member, std::size_t place,
                                      const gap::EffectFinding& finding, gap::UnknownKind& kind) {
   kind = gap::UnknownKind::cannot_say;
   const Cause& cause = evidence.library.causes[member.cause];
-  const double chance_nats = evidence.bank.chance_nats[member.cause];
-  if (member.lead_nats < evidence.bank.leads.named_nats + chance_nats) {
+  const double needed_nats = std::max(evidence.bank.leads.named_nats, kNamedShare * lead_of_best(evidence.found)) +
+                             evidence.bank.chance_nats[member.cause];
+  if (member.lead_nats < needed_nats) {
     return fmt::format("the most probable cause, {}, leads by {:.0f} nats only; a name takes {:.0f}",
-                       cause.words(), member.lead_nats, evidence.bank.leads.named_nats + chance_nats);
+                       cause.words(), member.lead_nats, needed_nats);
   }
   double presence = 0;
   // What an actuator can lose in full, as a dead one does, it can lose by any part.
@@ -311,10 +326,7 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const double most_power = bank.leads.most_power.value_or(floor.limit(kNominalPowerFactor));
   const bool is_loud = has_floor && after.mean_square > most_power;
   const bool was_loud = is_loud || (has_floor && before > most_power);
-  double gain_nats = best.log_odds;
-  for (const ScoredSet& one : found.sets) {
-    if (one.causes.empty()) gain_nats -= one.log_odds;
-  }
+  const double gain_nats = lead_of_best(found);
   double chance_nats = 0;
   for (const std::size_t cause : best.causes) chance_nats = std::max(chance_nats, bank.chance_nats[cause]);
   // The most probable set that has an effect.

@@ -54,6 +54,9 @@ inline constexpr double kBlock_s = 5;
 /// A cause is named where all sets without it, and without those that cannot be told from it, are so many nats
 /// behind, beyond what nominal recordings have for it by chance.
 inline constexpr double kNamed_nats = 15;
+/// And by this share of the lead of the best set over no cause: where one cause has thousands of nats, what the
+/// layout gets wrong about it has tens.
+inline constexpr double kNamedShare = 0.02;
 /// Causes are not told apart where one in place of the other costs less.
 inline constexpr double kClass_nats = 5;
 /// A recording has a gap where the best set leads no set by so many nats, beyond the chance of nominal recordings.

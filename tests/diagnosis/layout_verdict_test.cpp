@@ -65,6 +65,44 @@ TEST(LayoutVerdict, NamesACauseThatIsClearAndDescribesTheRecording) {
   EXPECT_TRUE(answer.effects[0].confused_with.empty());
 }
 
+/// A third cause beside the first one.
+Searched with_a_third() {
+  Searched searched;
+  searched.library.causes.push_back({.name = "third",
+                                     .of = "hull",
+                                     .manoeuvre = {},
+                                     .parameters = {{.name = "k", .low = -10, .high = 10, .column = 2}}});
+  searched.bank.chance_nats = {0, 0, 0};
+  searched.found.changes = {1e4 * Eigen::MatrixXd::Identity(3, 3), Eigen::Vector3d(1e4, 0, 1e4), 0};
+  return searched;
+}
+
+// A weight with two innocent causes beside it was not named, because a buoyancy in its place had been scored
+// alone.
+TEST(LayoutVerdict, WhatCouldStandInItsPlaceIsFoundInAnyGoodSet) {
+  Searched searched = with_a_third();
+  searched.found.sets = {{{0, 2}, 40, 0.9}, {{0}, 37, 0.06}, {{1}, 34, 0.02}, {{}, 0, 0}};
+  const gap::Diagnosis answer = searched.verdict();
+  ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
+  ASSERT_EQ(answer.effects.size(), 1U);
+  EXPECT_EQ(answer.effects[0].name, "first");
+  ASSERT_EQ(answer.effects[0].confused_with.size(), 1U);
+  EXPECT_EQ(answer.effects[0].confused_with[0].name, "second of thruster.1");
+}
+
+TEST(LayoutVerdict, BesideACauseOfThousandsOfNatsTensNameNothing) {
+  Searched searched = with_a_third();
+  searched.found.sets = {{{0, 2}, 40, 0.9}, {{0}, 20, 0.06}, {{}, 0, 0}};
+  EXPECT_EQ(searched.verdict().effects.size(), 2U);
+  searched.found.sets = {{{0, 2}, 2040, 0.9}, {{0}, 2020, 0.06}, {{}, 0, 0}};
+  const gap::Diagnosis answer = searched.verdict();
+  ASSERT_EQ(answer.effects.size(), 1U) << answer.sentence;
+  EXPECT_EQ(answer.effects[0].name, "first");
+  EXPECT_NE(answer.remarks.front().find("third of hull, leads by 20 nats only; a name takes 41"),
+            std::string::npos)
+      << answer.remarks.front();
+}
+
 TEST(LayoutVerdict, OneNominalRecordingTellsNothingOfTheScatterBetweenRecordings) {
   Searched searched;
   searched.found.sets = {{{0}, 15, 0.99}, {{1}, 2, 0.01}, {{}, 0, 0.002}};
