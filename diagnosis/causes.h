@@ -21,8 +21,8 @@ struct CauseParameter {
   double low = 0, high = 0;  ///< in the unit of the name
   Eigen::Index column = 0;
 
-  /// An actuator that is dead, or a lag or a dead band beside none. It is no tolerance: that would have both
-  /// signs, and zero is not within a linear stretch.
+  /// An actuator that is dead, a lag, or a dead band beside none. It is no tolerance: that would have both signs,
+  /// and zero is not within a linear stretch.
   [[nodiscard]] bool is_one_sided() const { return low == 0; }
   /// An actuator that is dead or reversed, or is not.
   [[nodiscard]] bool is_switch() const { return is_one_sided() && high == typical; }

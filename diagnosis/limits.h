@@ -16,8 +16,8 @@ using gap::kMemberStrengths;
 using gap::kMostEffects;
 
 /// Step of a finite difference, as part of the typical strength: small against it, large against rounding. What
-/// cannot be negative is not linear about zero (a dead actuator, a dead band where there is none): its difference
-/// takes a typical strength.
+/// cannot be negative is not linear about zero (a dead actuator, a lag, a dead band where there is none): its
+/// difference takes a typical strength.
 inline constexpr double kEffectStep = 0.01, kOneSidedStep = 1;
 /// Passes over the nominal recordings: each is linearised again at the estimate by all of them. The noises are
 /// fitted in the first ones.

@@ -121,8 +121,7 @@ constexpr std::array kLayoutEffects{
     Row{"fin_gain", "d *= 1 + k", kLayoutGain, surface, LayoutScale::one, "doublets at several amplitudes",
         [](Layout& l, const Owner& o, Values v) { l.surfaces[o.index].heard.scale *= 1 + v[0]; }},
     Row{"fin_lag", "lag += tau", kLayoutTau, surface, LayoutScale::one, "fast doublets",
-        [](Layout& l, const Owner& o, Values v) { add_to(l.surfaces[o.index].lag_s, v[0]); }, 1,
-        [](const Layout& l, const Owner& o) { return l.surfaces[o.index].lag_s; }},
+        [](Layout& l, const Owner& o, Values v) { add_to(l.surfaces[o.index].lag_s, v[0]); }},
     Row{"fin_offset", "d += o", kLayoutAngle, surface, LayoutScale::one, "straight legs",
         [](Layout& l, const Owner& o, Values v) {
           l.surfaces[o.index].heard.offset += v[0] * base::kRadiansPerDegree;
@@ -148,8 +147,7 @@ constexpr std::array kLayoutEffects{
           return 100 * l.thrusters[o.index].dead_band / half_range(l.thrusters[o.index]);
         }},
     Row{"thruster_lag", "lag += tau", kLayoutTau, thruster, LayoutScale::one, "fast steps of the command",
-        [](Layout& l, const Owner& o, Values v) { add_to(l.thrusters[o.index].lag_s, v[0]); }, 1,
-        [](const Layout& l, const Owner& o) { return l.thrusters[o.index].lag_s; }},
+        [](Layout& l, const Owner& o, Values v) { add_to(l.thrusters[o.index].lag_s, v[0]); }},
     Row{"thruster_offset", "command += o, in % of its range", kLayoutPercent, thruster, LayoutScale::one,
         "hover, and steps up and down",
         [](Layout& l, const Owner& o, Values v) {

@@ -53,7 +53,7 @@ struct LayoutEffectDescription {
   void (*change)(config::Layout& layout, const LayoutOwner& owner, std::span<const double> values);
   /// Number of consecutive parameters that are the components of one vector.
   std::size_t vector = 1;
-  /// The layout's number that a lag or a dead band adds to, in the unit of the parameter: what it can lose.
+  /// The layout's number that a dead band adds to, in the unit of the parameter: what it can lose.
   double (*number)(const config::Layout& layout, const LayoutOwner& owner) = nullptr;
 };
 
