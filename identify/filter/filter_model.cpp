@@ -62,12 +62,34 @@ FilterModel::Moved FilterModel::moved_over(double time_s, double step_s) const {
   return {vehicle_.hold(begin), vehicle_.hold(middle), vehicle_.hold(end)};
 }
 
+double FilterModel::age_of(Channel channel) const {
+  const auto delay = delay_of(channel);
+  return delay ? get(calibration_, *delay) : 0;
+}
+
+FilterState FilterModel::before(const FilterState& state, const sim::Vector6& acceleration, double age_s) const {
+  const sim::Body body = point_of(state.head<kStates>()).body;
+  const Eigen::Vector3d omega = body.velocity.tail<3>();
+  const double sr = std::sin(body.euler_rad.x()), cr = std::cos(body.euler_rad.x());
+  const double turn = (sr * omega.y() + cr * omega.z()) / std::cos(body.euler_rad.y());
+  const Eigen::Vector3d current(get(calibration_, Nuisance::current_north),
+                                get(calibration_, Nuisance::current_east), 0);
+  FilterState then = state;
+  then.segment<3>(0) -= age_s * (world_from_body(body.euler_rad) * body.velocity.head<3>() + current);
+  then.segment<3>(kEuler) -= age_s * Eigen::Vector3d(omega.x() + std::sin(body.euler_rad.y()) * turn,
+                                                     cr * omega.y() - sr * omega.z(), turn);
+  then.segment<6>(kVelocity) -= age_s * acceleration;
+  return then;
+}
+
 std::unique_ptr<const sim::LayoutVehicle::Held> FilterModel::held_for(std::span<const ChannelReading> readings,
                                                                       double time_s) const {
   for (const ChannelReading& reading : readings) {
-    if (reading.channel < Channel::force_x || reading.channel > Channel::force_z) continue;
+    const bool is_force = reading.channel >= Channel::force_x && reading.channel <= Channel::force_z;
+    const bool is_velocity = reading.channel <= Channel::water_z && describe(reading.channel).unit.ends_with("/s");
+    if (!is_force && !(is_velocity && age_of(reading.channel) != 0)) continue;
     sim::ActuatorValues values = sim::ActuatorValues::neutral(vehicle_.layout());
-    actuators_->at(time_s - get(calibration_, Nuisance::actuator_delay), values);
+    actuators_->at(time_s - age_of(Channel::force_x) - get(calibration_, Nuisance::actuator_delay), values);
     return std::unique_ptr<const sim::LayoutVehicle::Held>(new sim::LayoutVehicle::Held(vehicle_.hold(values)));
   }
   return nullptr;
@@ -130,12 +152,18 @@ FilterMatrix Transition::on_both_sides_of(const FilterMatrix& covariance) const 
 
 void FilterModel::predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
                           std::span<const ChannelReading> readings, double* out) const {
-  MotionPoint point = point_of(state.head<kStates>());
-  if (held != nullptr)
-    point.acceleration =
-        held->mass_inverse * vehicle_.force(point.body.velocity, sim::down_of(point.body.euler_rad), *held) +
-        state.tail<6>();
-  instruments_.at(point, Eigen::Vector3d::Zero(), readings, calibration_, out);
+  const auto point_at = [&](const FilterState& here) {
+    MotionPoint point = point_of(here.head<kStates>());
+    if (held != nullptr) point.acceleration = vehicle_.acceleration(point.body, *held) + here.tail<6>();
+    return point;
+  };
+  const MotionPoint now = point_at(state);
+  for (std::size_t first = 0, end = 0; first < readings.size(); first = end) {
+    const double age_s = age_of(readings[first].channel);
+    while (end < readings.size() && age_of(readings[end].channel) == age_s) ++end;
+    instruments_.at(age_s == 0 ? now : point_at(before(state, now.acceleration, age_s)), Eigen::Vector3d::Zero(),
+                    readings.subspan(first, end - first), calibration_, out + first);
+  }
 }
 
 void FilterModel::innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,

@@ -54,7 +54,10 @@ class FilterModel {
  private:
   void predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
                std::span<const ChannelReading> readings, double* out) const;
-  /// Actuators where an accelerometer needs them, else none.
+  [[nodiscard]] double age_of(Channel channel) const;
+  /// The motion so long before, as far as velocities and `acceleration` tell it.
+  [[nodiscard]] FilterState before(const FilterState& state, const sim::Vector6& acceleration, double age_s) const;
+  /// Actuators where a reading depends on the acceleration, else none: those that an accelerometer felt.
   [[nodiscard]] std::unique_ptr<const sim::LayoutVehicle::Held> held_for(std::span<const ChannelReading> readings,
                                                                          double time_s) const;
 

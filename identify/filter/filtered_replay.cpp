@@ -128,7 +128,7 @@ FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> par
   // At a point where everything is at work.
   std::vector<ChannelReading> one_each;
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (!recorded.channels[c].empty()) one_each.push_back({static_cast<Channel>(c), 0, 0, 1});
+    if (!recorded.channels[c].empty()) one_each.push_back({static_cast<Channel>(c), 1, 0, 1});
   }
   MotionPoint point = point_of(StateVector::LinSpaced(0.1, 0.3));
   point.acceleration.setConstant(0.2);
@@ -141,6 +141,9 @@ FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> par
   for (Eigen::Index i = 0; i < kNuisances; ++i)
     matters_[static_cast<std::size_t>(i)] =
         predicted(0.01 * Calibration::Unit(i)) != predicted(Calibration::Zero());
+  for (const ChannelReading& reading : one_each) {
+    if (const auto delay = delay_of(reading.channel)) matters_[static_cast<std::size_t>(*delay)] = true;
+  }
   matters_[static_cast<std::size_t>(Nuisance::actuator_delay)] = true;
 }
 
@@ -356,8 +359,8 @@ FilterLinearised FilteredReplay::linearise(const FilterPass& pass, const Eigen::
     };
     auto column = out.jacobian.col(static_cast<Eigen::Index>(c));
     if (parameter == nullptr) {
-      const bool is_delay = at - parameters == static_cast<Eigen::Index>(Nuisance::actuator_delay);
-      column = slope(is_delay ? kDelayColumn_s : kColumnPart * stds[at - parameters]);
+      const bool is_age = is_delay(static_cast<Nuisance>(at - parameters));
+      column = slope(is_age ? kDelayColumn_s : kColumnPart * stds[at - parameters]);
       return;
     }
     const double step = parameter->step > 0 ? parameter->step : kColumnPart * parameter->prior_std;

@@ -13,9 +13,15 @@ const std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)>& nui
       {"pitch gyro scale", "", 0.02},
       {"yaw gyro scale", "", 0.02},
       {"second yaw gyro scale", "", 0.02},
+      {"roll gyro drift", "rad/s2", 2e-6},
+      {"pitch gyro drift", "rad/s2", 2e-6},
+      {"yaw gyro drift", "rad/s2", 2e-6},
       {"accelerometer bias x", "m/s2", 0.1},
       {"accelerometer bias y", "m/s2", 0.1},
       {"accelerometer bias z", "m/s2", 0.1},
+      {"accelerometer scale x", "", 0.005},
+      {"accelerometer scale y", "", 0.005},
+      {"accelerometer scale z", "", 0.005},
       {"inertial unit's mounting about x", "rad", 0.02},
       {"inertial unit's mounting about y", "rad", 0.02},
       {"inertial unit's mounting about z", "rad", 0.02},
@@ -27,13 +33,28 @@ const std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)>& nui
       {"dip", "rad", 0.02},
       {"depth offset", "m", 0.2},
       {"offset of the depth gauge", "m", 0.5},
+      {"scale of depth", "", 0.005},
       {"Doppler scale", "", 0.01},
       {"Doppler mounting about z", "rad", 0.02},
+      {"place of the antenna x", "m", 0.05},
+      {"place of the antenna y", "m", 0.05},
       {"current north", "m/s", 0.3},
       {"current east", "m/s", 0.3},
+      {"delay of the inertial unit", "s", 0.005},
+      {"delay of the heading", "s", 0.02},
+      {"delay of the Doppler log", "s", 0.02},
+      {"delay of the fixes", "s", 0.1},
       {"delay of the actuators", "s", 0.02},
   }};
   return kAll;
+}
+
+std::optional<Nuisance> delay_of(Channel channel) {
+  if (channel <= Channel::force_z || channel == Channel::depth) return Nuisance::imu_delay;
+  if (channel == Channel::heading) return Nuisance::heading_delay;
+  if (channel >= Channel::bottom_x && channel <= Channel::water_z) return Nuisance::doppler_delay;
+  if (channel >= Channel::north) return Nuisance::fix_delay;
+  return std::nullopt;
 }
 
 Calibration nuisance_stds(const RecordedMotion& motion) {

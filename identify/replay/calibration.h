@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "identify/data/recorded_motion.h"
@@ -20,9 +21,15 @@ enum class Nuisance : Eigen::Index {
   rate_scale_y,
   rate_scale_z,
   second_yaw_rate_scale,
+  rate_drift_x,  ///< of the bias, from the recording's first byte on
+  rate_drift_y,
+  rate_drift_z,
   force_bias_x,
   force_bias_y,
   force_bias_z,
+  force_scale_x,
+  force_scale_y,
+  force_scale_z,
   imu_turn_x,  ///< small rotation of the inertial unit against the body
   imu_turn_y,
   imu_turn_z,
@@ -34,13 +41,20 @@ enum class Nuisance : Eigen::Index {
   dip,  ///< of the Earth's field, beyond that of the recording
   depth_offset,
   gauge_offset,
+  depth_scale,  ///< of both depths
   doppler_scale,
   doppler_turn,  ///< about z
+  antenna_x,     ///< its place, beyond the configuration's
+  antenna_y,
   current_north,
   current_east,
-  actuator_delay,
+  imu_delay,  ///< ages of the readings beyond their stamps: rates, forces and depth of the inertial unit
+  heading_delay,
+  doppler_delay,
+  fix_delay,
+  actuator_delay,  ///< and of the recorded actuators
 };
-inline constexpr Eigen::Index kNuisances = 27;
+inline constexpr Eigen::Index kNuisances = 40;
 using Calibration = Eigen::Matrix<double, kNuisances, 1>;
 
 struct NuisanceDescription {
@@ -52,6 +66,11 @@ struct NuisanceDescription {
 /// configuration). The offset of the heading contains the declination, which is unknown without a place.
 [[nodiscard]] const std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)>& nuisances();
 [[nodiscard]] Calibration nuisance_stds(const RecordedMotion& motion);
+
+/// Of an age, which shifts a reading by more than small changes of its number do (commands jump).
+[[nodiscard]] constexpr bool is_delay(Nuisance nuisance) { return nuisance >= Nuisance::imu_delay; }
+/// The nuisance that is the age of a channel's readings; nullopt: none is.
+[[nodiscard]] std::optional<Nuisance> delay_of(Channel channel);
 
 [[nodiscard]] inline double get(const Calibration& calibration, Nuisance nuisance) {
   return calibration[static_cast<Eigen::Index>(nuisance)];

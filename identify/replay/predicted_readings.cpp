@@ -40,14 +40,18 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
   const sim::Body& body = point.body;
   const Eigen::Matrix3d R = world_from_body(body.euler_rad);
   const Eigen::Vector3d v = body.velocity.head<3>(), omega = body.velocity.tail<3>();
-  const auto predict = [&](Channel channel) -> double {
+  const Eigen::Vector3d antenna_m =
+      recorded_.antenna_place_m + Eigen::Vector3d(value(Nuisance::antenna_x), value(Nuisance::antenna_y), 0);
+  const double depth_per_m = 1 + value(Nuisance::depth_scale);
+  const auto predict = [&](Channel channel, double time_s) -> double {
     switch (channel) {
       case Channel::rate_x:
       case Channel::rate_y:
       case Channel::rate_z: {
         const Eigen::Vector3d turned = omega - imu_turn.cross(omega);
         const Eigen::Vector3d all = turned + vector(Nuisance::rate_scale_x).cwiseProduct(turned);
-        return component(channel, Channel::rate_x, all + vector(Nuisance::rate_bias_x));
+        return component(channel, Channel::rate_x,
+                         all + vector(Nuisance::rate_bias_x) + time_s * vector(Nuisance::rate_drift_x));
       }
       case Channel::second_yaw_rate: {
         const Eigen::Vector3d turned = omega - imu_turn.cross(omega);
@@ -61,8 +65,9 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
         const Eigen::Vector3d force = Eigen::Vector3d(point.acceleration.head<3>()) + omega.cross(v) +
                                       angular.cross(r) + omega.cross(omega.cross(r)) -
                                       base::kGravity_m_s2 * R.row(2).transpose();
-        return component(channel, Channel::force_x,
-                         force - imu_turn.cross(force) + vector(Nuisance::force_bias_x));
+        const Eigen::Vector3d turned = force - imu_turn.cross(force);
+        const Eigen::Vector3d all = turned + vector(Nuisance::force_scale_x).cwiseProduct(turned);
+        return component(channel, Channel::force_x, all + vector(Nuisance::force_bias_x));
       }
       case Channel::roll: return point.tilt_rad.x() + value(Nuisance::roll_offset);
       case Channel::pitch: return point.tilt_rad.y() + value(Nuisance::pitch_offset);
@@ -77,9 +82,11 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
                value(Nuisance::heading_cosine) * std::cos(heading);
       }
       case Channel::depth:
-        return body.position_m.z() + R.row(2).dot(recorded_.imu_place_m) + value(Nuisance::depth_offset);
+        return depth_per_m * (body.position_m.z() + R.row(2).dot(recorded_.imu_place_m)) +
+               value(Nuisance::depth_offset);
       case Channel::gauge_depth:
-        return body.position_m.z() + R.row(2).dot(recorded_.gauge_place_m) + value(Nuisance::gauge_offset);
+        return depth_per_m * (body.position_m.z() + R.row(2).dot(recorded_.gauge_place_m)) +
+               value(Nuisance::gauge_offset);
       case Channel::bottom_x:
       case Channel::bottom_y:
       case Channel::bottom_z: {
@@ -96,18 +103,18 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
       }
       case Channel::north:
       case Channel::east: {
-        const Eigen::Vector3d there = body.position_m + R * recorded_.antenna_place_m + carried_m;
+        const Eigen::Vector3d there = body.position_m + R * antenna_m + carried_m;
         return component(channel, Channel::north, there);
       }
       case Channel::north_velocity:
       case Channel::east_velocity: {
-        const Eigen::Vector3d there = R * (v + omega.cross(recorded_.antenna_place_m)) + current;
+        const Eigen::Vector3d there = R * (v + omega.cross(antenna_m)) + current;
         return component(channel, Channel::north_velocity, there);
       }
     }
     return 0;
   };
-  for (const ChannelReading& reading : readings) *out++ = predict(reading.channel);
+  for (const ChannelReading& reading : readings) *out++ = predict(reading.channel, reading.time_s);
 }
 
 }  // namespace navcal::identify

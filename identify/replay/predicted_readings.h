@@ -19,13 +19,14 @@ struct ChannelReading {
 
 /// Readings of a recording's instruments at a point of a motion. With nu = (v, omega) through the water, R the
 /// rotation from body to world, c the current, r the instrument's place, and the nuisances by their names:
-///   rates     (1 + scale)(1 - turn x) omega + bias
-///   force     (1 - turn x)(v' + omega x v + omega' x r + omega x (omega x r) - R^T g) + bias
+///   rates     (1 + scale)(1 - turn x) omega + bias + drift t
+///   force     (1 + scale)(1 - turn x)(v' + omega x v + omega' x r + omega x (omega x r) - R^T g) + bias
 ///   tilt      roll and pitch through the sensor's first-order lag, + offset
 ///   heading   the field at yaw + offset, levelled with the lagged tilt, + sine and cosine of it
-///   depth     z of the instrument's place + offset
+///   depth     (1 + scale) z of the instrument's place + offset
 ///   Doppler   (1 + scale) Rz(turn)^T (v + omega x r [+ R^T c over the bottom])
 ///   fixes     position + R r + c t; R (v + omega x r) + c
+/// Delays are the caller's: each instrument is asked at the motion of the time it measured.
 class PredictedReadings {
  public:
   explicit PredictedReadings(const RecordedMotion& recorded) : recorded_(recorded) {}

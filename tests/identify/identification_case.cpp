@@ -184,9 +184,11 @@ RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth
   request.seconds = seconds;
   request.seed = seed + 1;
   request.reports_positions = of.reports_positions;
-  for (Eigen::Index i = 0; i < kNuisances; ++i)
-    request.calibration[i] = instrument_errors * stds[i] * normal(*random);
-  request.calibration[static_cast<Eigen::Index>(Nuisance::actuator_delay)] = 0;
+  // Of their own numbers, so that the commands stay as they are when an error is added. Nothing here is late.
+  std::mt19937_64 errors(seed + 2);
+  for (Eigen::Index i = 0; i < kNuisances; ++i) {
+    if (!is_delay(static_cast<Nuisance>(i))) request.calibration[i] = instrument_errors * stds[i] * normal(errors);
+  }
   const bool has_fins = std::any_of(of.prior.surfaces.begin(), of.prior.surfaces.end(),
                                     [](const auto& surface) { return surface.limit_rad > 0; });
   request.start.position_m.z() = 5;
