@@ -155,6 +155,7 @@ void add_effects(const config::Layout& layout, const std::set<std::string, std::
                    here.values[i] = value;
                    changed = sim::changed_layout(std::move(changed), here);
                  },
+             .is_of_actuator = cause.is_of_actuator(),
              .step = (parameter.least == 0 ? kOneSidedStep : kEffectStep) * parameter.typical});
       }
       library.causes.push_back(std::move(cause));

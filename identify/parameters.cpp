@@ -160,9 +160,8 @@ Eigen::VectorXd upper_bounds(std::span<const Parameter> parameters) {
 }
 
 bool moves_actuators(const Parameter& parameter) {
-  return parameter.change != nullptr || parameter.key.ends_with(".lag_s") ||
-         parameter.key.ends_with(".dead_band") || parameter.key.ends_with(".rate_N_s") ||
-         parameter.key.ends_with(".rate_m_s");
+  return parameter.is_of_actuator || parameter.key.ends_with(".lag_s") || parameter.key.ends_with(".dead_band") ||
+         parameter.key.ends_with(".rate_N_s") || parameter.key.ends_with(".rate_m_s");
 }
 
 }  // namespace navcal::identify

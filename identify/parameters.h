@@ -24,7 +24,8 @@ struct Parameter {
   std::vector<std::size_t> elements;  ///< in the array of the key; two for an element of a symmetric matrix
   /// Changes the layout by a value in another way than by its numbers (an effect); the key is then empty.
   std::function<void(config::Layout&, double)> change = {};
-  double step = 0;  ///< of a finite difference; 0: a small part of the prior's standard deviation
+  bool is_of_actuator = false;  ///< such a change
+  double step = 0;              ///< of a finite difference; 0: a small part of the prior's standard deviation
 };
 
 /// All uncertain numbers, in the order of the file. A standard error of zero means that a number is exact.

@@ -16,6 +16,8 @@ namespace {
 double difference_for(double std) { return std::max(1e-5, std); }
 constexpr Eigen::Index kEuler = 3, kVelocity = 6, kTilt = 12;
 
+bool is_force(Channel channel) { return channel >= Channel::force_x && channel <= Channel::force_z; }
+
 double difference_of(const ChannelReading& reading, double a, double b) {
   return describe(reading.channel).is_angle ? base::wrapped(a - b) : a - b;
 }
@@ -46,7 +48,7 @@ FilterModel::FilterModel(const sim::LayoutVehicle& vehicle, std::shared_ptr<cons
     : vehicle_(vehicle), actuators_(std::move(actuators)), calibration_(calibration), instruments_(recorded),
       tilt_lag_s_(recorded.tilt_lag_s) {}
 
-FilterModel::Moved FilterModel::moved_over(double time_s, double step_s) const {
+std::array<sim::ActuatorValues, 3> FilterModel::actuators_over(double time_s, double step_s) const {
   const double from_s = time_s - get(calibration_, Nuisance::actuator_delay);
   sim::ActuatorValues begin = sim::ActuatorValues::neutral(vehicle_.layout()), end = begin, middle = begin;
   actuators_->at(from_s, begin);
@@ -59,7 +61,38 @@ FilterModel::Moved FilterModel::moved_over(double time_s, double step_s) const {
   solve(middle.surfaces_rad, begin.surfaces_rad, end.surfaces_rad);
   solve(middle.ballasts_N, begin.ballasts_N, end.ballasts_N);
   solve(middle.masses_m, begin.masses_m, end.masses_m);
+  return {begin, middle, end};
+}
+
+FilterModel::Moved FilterModel::moved_over(double time_s, double step_s) const {
+  const auto [begin, middle, end] = actuators_over(time_s, step_s);
   return {vehicle_.hold(begin), vehicle_.hold(middle), vehicle_.hold(end)};
+}
+
+FilterModel::Acceleration FilterModel::acceleration_over(const FilterState& from, const FilterState& to,
+                                                         double time_s, double step_s,
+                                                         const sim::Vector6* begin) const {
+  const auto actuators = actuators_over(time_s, step_s);
+  const auto at = [&](const FilterState& state, const sim::ActuatorValues& by) {
+    return vehicle_.acceleration(point_of(state.head<kStates>()).body, vehicle_.hold(by));
+  };
+  const sim::Vector6 first = begin != nullptr ? *begin : at(from, actuators[0]);
+  const sim::Vector6 middle = at((from + to) / 2, actuators[1]), last = at(to, actuators[2]);
+  return {(first + 4 * middle + last) / 6, first - last, last};
+}
+
+bool FilterModel::is_driven_as(const FilterModel& other) const {
+  return &vehicle_ == &other.vehicle_ && actuators_ == other.actuators_ &&
+         get(calibration_, Nuisance::actuator_delay) == get(other.calibration_, Nuisance::actuator_delay);
+}
+
+bool FilterModel::feels_forces(Channel channel) const {
+  return is_force(channel) ||
+         (channel <= Channel::water_z && describe(channel).unit.ends_with("/s") && age_of(channel) != 0);
+}
+
+Eigen::Vector2d FilterModel::current() const {
+  return {get(calibration_, Nuisance::current_north), get(calibration_, Nuisance::current_east)};
 }
 
 double FilterModel::age_of(Channel channel) const {
@@ -67,27 +100,23 @@ double FilterModel::age_of(Channel channel) const {
   return delay ? get(calibration_, *delay) : 0;
 }
 
-FilterState FilterModel::before(const FilterState& state, const sim::Vector6& acceleration, double age_s) const {
-  const sim::Body body = point_of(state.head<kStates>()).body;
-  const Eigen::Vector3d omega = body.velocity.tail<3>();
+MotionPoint FilterModel::before(MotionPoint point, double age_s) const {
+  sim::Body& body = point.body;
+  const Eigen::Vector3d v = body.velocity.head<3>(), omega = body.velocity.tail<3>();
   const double sr = std::sin(body.euler_rad.x()), cr = std::cos(body.euler_rad.x());
   const double turn = (sr * omega.y() + cr * omega.z()) / std::cos(body.euler_rad.y());
-  const Eigen::Vector3d current(get(calibration_, Nuisance::current_north),
-                                get(calibration_, Nuisance::current_east), 0);
-  FilterState then = state;
-  then.segment<3>(0) -= age_s * (world_from_body(body.euler_rad) * body.velocity.head<3>() + current);
-  then.segment<3>(kEuler) -= age_s * Eigen::Vector3d(omega.x() + std::sin(body.euler_rad.y()) * turn,
-                                                     cr * omega.y() - sr * omega.z(), turn);
-  then.segment<6>(kVelocity) -= age_s * acceleration;
-  return then;
+  body.position_m -= age_s * (world_from_body(body.euler_rad) * v);
+  body.position_m.head<2>() -= age_s * current();
+  body.euler_rad -= age_s * Eigen::Vector3d(omega.x() + std::sin(body.euler_rad.y()) * turn,
+                                            cr * omega.y() - sr * omega.z(), turn);
+  body.velocity -= age_s * point.acceleration;
+  return point;
 }
 
 std::unique_ptr<const sim::LayoutVehicle::Held> FilterModel::held_for(std::span<const ChannelReading> readings,
                                                                       double time_s) const {
   for (const ChannelReading& reading : readings) {
-    const bool is_force = reading.channel >= Channel::force_x && reading.channel <= Channel::force_z;
-    const bool is_velocity = reading.channel <= Channel::water_z && describe(reading.channel).unit.ends_with("/s");
-    if (!is_force && !(is_velocity && age_of(reading.channel) != 0)) continue;
+    if (!feels_forces(reading.channel)) continue;
     sim::ActuatorValues values = sim::ActuatorValues::neutral(vehicle_.layout());
     actuators_->at(time_s - age_of(Channel::force_x) - get(calibration_, Nuisance::actuator_delay), values);
     return std::unique_ptr<const sim::LayoutVehicle::Held>(new sim::LayoutVehicle::Held(vehicle_.hold(values)));
@@ -101,8 +130,7 @@ FilterState FilterModel::after(const FilterState& state, const Moved& moved, dou
   body.velocity += kick;
   body = vehicle_.moved_step(body, moved.begin, moved.middle, moved.end, step_s).body;
   body.velocity += kick;
-  body.position_m.x() += step_s * get(calibration_, Nuisance::current_north);
-  body.position_m.y() += step_s * get(calibration_, Nuisance::current_east);
+  body.position_m.head<2>() += step_s * current();
   FilterState end;
   end << body.position_m, body.euler_rad, body.velocity,
       lagged_tilt(state.segment<2>(kTilt), state.segment<2>(kEuler), body.euler_rad.head<2>(), tilt_lag_s_,
@@ -152,17 +180,20 @@ FilterMatrix Transition::on_both_sides_of(const FilterMatrix& covariance) const 
 
 void FilterModel::predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
                           std::span<const ChannelReading> readings, double* out) const {
-  const auto point_at = [&](const FilterState& here) {
-    MotionPoint point = point_of(here.head<kStates>());
-    if (held != nullptr) point.acceleration = vehicle_.acceleration(point.body, *held) + here.tail<6>();
-    return point;
+  const auto accelerate = [&](MotionPoint& point) {
+    point.acceleration = vehicle_.acceleration(point.body, *held) + state.tail<6>();
   };
-  const MotionPoint now = point_at(state);
+  MotionPoint now = point_of(state.head<kStates>());
+  if (held != nullptr) accelerate(now);
   for (std::size_t first = 0, end = 0; first < readings.size(); first = end) {
     const double age_s = age_of(readings[first].channel);
-    while (end < readings.size() && age_of(readings[end].channel) == age_s) ++end;
-    instruments_.at(age_s == 0 ? now : point_at(before(state, now.acceleration, age_s)), Eigen::Vector3d::Zero(),
-                    readings.subspan(first, end - first), calibration_, out + first);
+    bool is_felt = false;
+    for (; end < readings.size() && age_of(readings[end].channel) == age_s; ++end)
+      is_felt = is_felt || is_force(readings[end].channel);
+    MotionPoint then = age_s == 0 ? now : before(now, age_s);
+    if (age_s != 0 && is_felt) accelerate(then);
+    instruments_.at(then, Eigen::Vector3d::Zero(), readings.subspan(first, end - first), calibration_,
+                    out + first);
   }
 }
 

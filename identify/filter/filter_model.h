@@ -44,6 +44,19 @@ class FilterModel {
   [[nodiscard]] StepDerivatives derivatives(const FilterState& state, const FilterState& stds,
                                             const FilterState& end, const Moved& moved, double step_s,
                                             double tau_s) const;
+  /// nu' over a step without the disturbance: its mean by Simpson's rule, what it falls by, and its end.
+  struct Acceleration {
+    sim::Vector6 mean, fall, end;
+  };
+  /// `begin`: nu' at the begin; nullptr: computed.
+  [[nodiscard]] Acceleration acceleration_over(const FilterState& from, const FilterState& to, double time_s,
+                                               double step_s, const sim::Vector6* begin) const;
+  /// Whether the same vehicle is under the same actuators at the same times.
+  [[nodiscard]] bool is_driven_as(const FilterModel& other) const;
+  /// Whether a channel's readings depend on the acceleration: an accelerometer's, and a velocity's that is late.
+  [[nodiscard]] bool feels_forces(Channel channel) const;
+  /// North and east, m/s.
+  [[nodiscard]] Eigen::Vector2d current() const;
   /// Readings less predictions at one instant, angles wrapped, to `out`.
   void innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
                    double* out) const;
@@ -54,9 +67,11 @@ class FilterModel {
  private:
   void predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
                std::span<const ChannelReading> readings, double* out) const;
+  /// Begin, middle and end of a step.
+  [[nodiscard]] std::array<sim::ActuatorValues, 3> actuators_over(double time_s, double step_s) const;
   [[nodiscard]] double age_of(Channel channel) const;
-  /// The motion so long before, as far as velocities and `acceleration` tell it.
-  [[nodiscard]] FilterState before(const FilterState& state, const sim::Vector6& acceleration, double age_s) const;
+  /// The motion so long before, as far as velocities and acceleration tell it.
+  [[nodiscard]] MotionPoint before(MotionPoint point, double age_s) const;
   /// Actuators where a reading depends on the acceleration, else none: those that an accelerometer felt.
   [[nodiscard]] std::unique_ptr<const sim::LayoutVehicle::Held> held_for(std::span<const ChannelReading> readings,
                                                                          double time_s) const;

@@ -138,13 +138,14 @@ FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> par
     PredictedReadings(recorded).at(point, carried, one_each, with, all.data());
     return all;
   };
-  for (Eigen::Index i = 0; i < kNuisances; ++i)
-    matters_[static_cast<std::size_t>(i)] =
-        predicted(0.01 * Calibration::Unit(i)) != predicted(Calibration::Zero());
-  for (const ChannelReading& reading : one_each) {
-    if (const auto delay = delay_of(reading.channel)) matters_[static_cast<std::size_t>(*delay)] = true;
+  for (Eigen::Index i = 0; i < kNuisances; ++i) {
+    const Eigen::VectorXd moved = predicted(0.01 * Calibration::Unit(i)) - predicted(Calibration::Zero());
+    for (std::size_t r = 0; r < one_each.size(); ++r) {
+      const Channel channel = one_each[r].channel;
+      shown_in_[static_cast<std::size_t>(i)][static_cast<std::size_t>(channel)] =
+          moved[static_cast<Eigen::Index>(r)] != 0 || delay_of(channel) == static_cast<Nuisance>(i);
+    }
   }
-  matters_[static_cast<std::size_t>(Nuisance::actuator_delay)] = true;
 }
 
 void FilteredReplay::make_steps() {
@@ -294,83 +295,137 @@ std::optional<FilterPass> FilteredReplay::follow(const Eigen::VectorXd& values) 
 
 Eigen::VectorXd FilteredReplay::replayed(const FilterPass& pass, const Eigen::VectorXd& values) const {
   const Driven driven = driven_by(values);
-  return replayed(pass, model_of(driven, values));
+  return replayed(pass, model_of(driven, values)).white;
 }
 
-Eigen::VectorXd FilteredReplay::replayed(const FilterPass& pass, const FilterModel& model) const {
-  Eigen::VectorXd white(std::ssize(readings_));
-  std::vector<double> innovations;
-  FilterState state;
+FilteredReplay::Course FilteredReplay::replayed(const FilterPass& pass, const FilterModel& model) const {
+  Course course{Eigen::VectorXd(std::ssize(readings_)), {}, {}, std::vector<double>(readings_.size())};
+  FilterState state = FilterState::Zero();
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
+    course.begins.push_back(state);
     state = step.starts_anew ? measured(step.time_s)
                              : model.after(state, model.moved_over(step.time_s - step.length_s, step.length_s),
                                            step.length_s, noises_.tau_s);
+    course.ends.push_back(state);
     if (!is_sane(point_of(state.head<kStates>()).body)) return {};
     if (step.count == 0) continue;
-    innovations.resize(step.count);
-    model.innovations(state, step.time_s, readings_of(step), innovations.data());
+    model.innovations(state, step.time_s, readings_of(step), course.innovations.data() + step.first);
     FilterState correction = FilterState::Zero();
-    for (std::size_t i = 0; i < step.count; ++i) {
-      const FilterPass::Reading& held = pass.readings[step.first + i];
-      const double innovation = innovations[i] - held.sensitivity.dot(correction);
-      white[static_cast<Eigen::Index>(step.first + i)] =
-          held.is_settling ? 0 : innovation / std::sqrt(held.variance);
+    for (std::size_t i = step.first; i < step.first + step.count; ++i) {
+      const FilterPass::Reading& held = pass.readings[i];
+      const double innovation = course.innovations[i] - held.sensitivity.dot(correction);
+      course.white[static_cast<Eigen::Index>(i)] = held.is_settling ? 0 : innovation / std::sqrt(held.variance);
       correction += held.gain * innovation;
     }
     state += correction;
   }
+  return course;
+}
+
+std::vector<FilterModel::Acceleration> FilteredReplay::accelerations(const Course& course,
+                                                                     const FilterModel& model) const {
+  std::vector<FilterModel::Acceleration> all(steps_.size());
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    if (step.starts_anew) continue;
+    // What readings correct of the state in between changes forces little.
+    const bool goes_on = k > 0 && !steps_[k - 1].starts_anew;
+    all[k] = model.acceleration_over(course.begins[k], course.ends[k], step.time_s - step.length_s, step.length_s,
+                                     goes_on ? &all[k - 1].end : nullptr);
+  }
+  return all;
+}
+
+Eigen::VectorXd FilteredReplay::slope(const About& about, const FilterModel& moved, const Channels& shown_in,
+                                      double by) const {
+  const Course& course = about.course;
+  const Eigen::Vector2d carried = (moved.current() - about.model.current()) / by;
+  const auto by_moved =
+      moved.is_driven_as(about.model) ? std::vector<FilterModel::Acceleration>{} : accelerations(course, moved);
+  Eigen::VectorXd white = Eigen::VectorXd::Zero(course.white.size());
+  std::vector<double> innovations = course.innovations;
+  FilterState apart = FilterState::Zero();  // of the two vehicles, over `by`
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    if (step.starts_anew) {
+      apart.setZero();
+    } else {
+      const Transition transition(about.pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s,
+                                  noises_.tau_s);
+      apart = transition * apart;
+      if (!by_moved.empty()) {
+        // The integral of exp(A t) by its end F: (F + 1)/2 - (F - 1)^2/12. What falls over the step moves further.
+        FilterState kick = FilterState::Zero(), sooner = kick;
+        kick.segment<6>(6) = step.length_s / by * (by_moved[k].mean - about.accelerations[k].mean);
+        sooner.segment<6>(6) = step.length_s / by * (by_moved[k].fall - about.accelerations[k].fall);
+        const FilterState grown = transition * kick - kick;
+        const FilterState less = grown - sooner;
+        apart += kick + grown / 2 - (transition * less - less) / 12;
+      }
+      apart.head<2>() += step.length_s * carried;
+    }
+    const auto readings = readings_of(step);
+    if (std::ranges::any_of(readings, [&](const ChannelReading& reading) {
+          return shown_in[static_cast<std::size_t>(reading.channel)];
+        }))
+      moved.innovations(course.ends[k], step.time_s, readings, innovations.data() + step.first);
+    for (std::size_t i = step.first; i < step.first + step.count; ++i) {
+      const FilterPass::Reading& held = about.pass.readings[i];
+      const double innovation = (innovations[i] - course.innovations[i]) / by - held.sensitivity.dot(apart);
+      if (!held.is_settling) white[static_cast<Eigen::Index>(i)] = innovation / std::sqrt(held.variance);
+      apart += held.gain * innovation;
+    }
+  }
   return white;
 }
 
-std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& values,
+std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& at_values,
                                                           std::span<const Eigen::Index> columns) const {
-  Eigen::VectorXd white = replayed(pass, values);
-  if (white.size() == 0) return std::nullopt;
-  return linearise(pass, values, std::move(white), columns);
-}
-
-FilterLinearised FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& at_values,
-                                           Eigen::VectorXd white, std::span<const Eigen::Index> columns) const {
-  FilterLinearised out{{}, std::move(white), 0, pass.log_det()};
-  out.power = out.white.squaredNorm();
-  out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
   const Driven nominal = driven_by(at_values);
+  const FilterModel model = model_of(nominal, at_values);
+  About about{pass, model, replayed(pass, model), {}};
+  if (about.course.white.size() == 0) return std::nullopt;
+  about.accelerations = accelerations(about.course, model);
+  FilterLinearised out{{}, about.course.white, about.course.white.squaredNorm(), pass.log_det()};
+  out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
   const auto parameters = std::ssize(parameters_);
   const Calibration stds = nuisance_stds(recorded_);
+  // An accelerometer feels forces at once, and what is late is asked of the motion before.
+  Channels felt;
+  for (std::size_t i = 0; i < kChannels; ++i) felt[i] = model.feels_forces(static_cast<Channel>(i));
   base::in_parallel(threads_, columns.size(), [&](std::size_t c) {
     const Eigen::Index at = columns[c];
-    const Parameter* parameter = at < parameters ? &parameters_[static_cast<std::size_t>(at)] : nullptr;
-    if (parameter == nullptr && !matters(static_cast<Nuisance>(at - parameters))) return;
-    const auto slope = [&](double step) -> Eigen::VectorXd {
+    auto column = out.jacobian.col(static_cast<Eigen::Index>(c));
+    if (at >= parameters) {
+      const auto nuisance = static_cast<Nuisance>(at - parameters);
+      if (!matters(nuisance)) return;
+      const double step = is_delay(nuisance) ? kDelayColumn_s : kColumnPart * stds[at - parameters];
       Eigen::VectorXd values = at_values;
       values[at] += step;
-      std::optional<Driven> moved;
-      if (parameter != nullptr) {
-        const config::Layout layout = with_values(layout_, parameters_, values.head(parameters));
-        moved = {sim::LayoutVehicle(layout),
-                 moves_actuators(*parameter)
-                     ? std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))
-                     : nominal.actuators};
-      }
-      const Eigen::VectorXd there = replayed(pass, model_of(moved ? *moved : nominal, values));
-      if (there.size() == 0) return Eigen::VectorXd::Zero(out.count());
-      return (there - out.white) / step;
-    };
-    auto column = out.jacobian.col(static_cast<Eigen::Index>(c));
-    if (parameter == nullptr) {
-      const bool is_age = is_delay(static_cast<Nuisance>(at - parameters));
-      column = slope(is_age ? kDelayColumn_s : kColumnPart * stds[at - parameters]);
+      column = slope(about, model_of(nominal, values),
+                     nuisance == Nuisance::actuator_delay ? felt : shown_in(nuisance), step);
       return;
     }
-    const double step = parameter->step > 0 ? parameter->step : kColumnPart * parameter->prior_std;
+    const Parameter& parameter = parameters_[static_cast<std::size_t>(at)];
+    const auto slope_over = [&](double step) {
+      Eigen::VectorXd values = at_values;
+      values[at] += step;
+      const config::Layout layout = with_values(layout_, parameters_, values.head(parameters));
+      const Driven moved{sim::LayoutVehicle(layout),
+                         moves_actuators(parameter)
+                             ? std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))
+                             : nominal.actuators};
+      return slope(about, model_of(moved, values), felt, step);
+    };
+    const double step = parameter.step > 0 ? parameter.step : kColumnPart * parameter.prior_std;
     // An effect that cannot be negative is not linear about zero; away from zero it is, but for a dead band in
     // whose end no command lies.
-    if (parameter->change && parameter->low == 0 && at_values[at] > step / 4) {
-      column = slope(-at_values[at] / 4);
-      if (column.isZero(0)) column = slope(-at_values[at]);
+    if (parameter.change && parameter.low == 0 && at_values[at] > step / 4) {
+      column = slope_over(-at_values[at] / 4);
+      if (column.isZero(0)) column = slope_over(-at_values[at]);
     } else {
-      column = slope(at_values[at] + step > parameter->high ? -step : step);
+      column = slope_over(at_values[at] + step > parameter.high ? -step : step);
     }
   });
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bitset>
 #include <optional>
 #include <span>
 #include <string>
@@ -81,10 +82,10 @@ class FilteredReplay {
   [[nodiscard]] std::optional<FilterPass> follow(const Eigen::VectorXd& values) const;
   /// White innovations of other values with the gains of a pass; empty where the vehicle leaves all bounds.
   [[nodiscard]] Eigen::VectorXd replayed(const FilterPass& pass, const Eigen::VectorXd& values) const;
-  /// The same of a pass's own values, with one replay for each column, a place among the values. A column whose
-  /// replay leaves all bounds is zero: the recording says nothing of it here.
+  /// The same of a pass's own values, with the derivatives by some of them (`columns`: places among the values).
+  /// Each step's change is that of its mean acceleration; the pass's own derivatives carry it on.
   [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, std::span<const Eigen::Index> columns) const {
-    return linearise(pass, pass.values, pass.white(), columns);
+    return *linearise(pass, pass.values, columns);
   }
   /// Linearises other values with the gains of the pass. nullopt: the vehicle leaves all bounds with these values.
   [[nodiscard]] std::optional<FilterLinearised> linearise(const FilterPass& pass, const Eigen::VectorXd& values,
@@ -102,7 +103,9 @@ class FilteredReplay {
   [[nodiscard]] const config::Layout& layout() const { return layout_; }
   [[nodiscard]] const RecordedMotion& recording() const { return recorded_; }
   /// Whether the readings of the recording depend on a nuisance at all.
-  [[nodiscard]] bool matters(Nuisance nuisance) const { return matters_[static_cast<std::size_t>(nuisance)]; }
+  [[nodiscard]] bool matters(Nuisance nuisance) const {
+    return nuisance == Nuisance::actuator_delay || shown_in(nuisance).any();
+  }
   [[nodiscard]] std::size_t stretches() const;  ///< starts of the filter
   [[nodiscard]] std::vector<std::string> oddities() const { return inputs_.oddities(layout_); }
   /// Whether an actuator follows commands, which may reach it late; else all report where they are.
@@ -132,9 +135,31 @@ class FilteredReplay {
   void make_steps();
   /// Places where the filter left all bounds, the filter starting anew behind each; at most `most`.
   [[nodiscard]] std::vector<double> run(const Eigen::VectorXd& values, FilterPass& pass, std::size_t most) const;
-  [[nodiscard]] Eigen::VectorXd replayed(const FilterPass& pass, const FilterModel& model) const;
-  [[nodiscard]] FilterLinearised linearise(const FilterPass& pass, const Eigen::VectorXd& values,
-                                           Eigen::VectorXd white, std::span<const Eigen::Index> columns) const;
+  /// A replay: white innovations, and what its steps and readings were.
+  struct Course {
+    Eigen::VectorXd white;                  ///< empty: the vehicle left all bounds
+    std::vector<FilterState> begins, ends;  ///< of the steps, before the readings at their ends
+    std::vector<double> innovations;        ///< before the step's first update
+  };
+  [[nodiscard]] Course replayed(const FilterPass& pass, const FilterModel& model) const;
+  /// nu' over each step of a course.
+  [[nodiscard]] std::vector<FilterModel::Acceleration> accelerations(const Course& course,
+                                                                     const FilterModel& model) const;
+  using Channels = std::bitset<kChannels>;
+  /// Channels of the recording whose readings depend on a nuisance in other ways than by the motion.
+  [[nodiscard]] const Channels& shown_in(Nuisance nuisance) const {
+    return shown_in_[static_cast<std::size_t>(nuisance)];
+  }
+  /// What is linearised about: a course of a model, and its accelerations.
+  struct About {
+    const FilterPass& pass;
+    const FilterModel& model;
+    Course course;
+    std::vector<FilterModel::Acceleration> accelerations;
+  };
+  /// Derivative of the white innovations: what `moved` changes, which `shown_in` see at once, over `by`.
+  [[nodiscard]] Eigen::VectorXd slope(const About& about, const FilterModel& moved, const Channels& shown_in,
+                                      double by) const;
 
   config::Layout layout_;
   std::vector<Parameter> parameters_;
@@ -145,7 +170,7 @@ class FilteredReplay {
   std::vector<ChannelReading> readings_;
   std::vector<Step> steps_;
   std::vector<double> broken_s_;  ///< ends of what was left out
-  std::array<bool, static_cast<std::size_t>(kNuisances)> matters_{};
+  std::array<Channels, static_cast<std::size_t>(kNuisances)> shown_in_;
 };
 
 }  // namespace navcal::identify
