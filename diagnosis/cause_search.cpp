@@ -259,8 +259,13 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
       return SetEvidence(changes, library).posterior(set).among(library.columns());
     };
     const Eigen::VectorXd begin = prior.in_each(estimated(prior.of_changes(here->linear)));
-    auto there = settled(recording, prior, prior.posterior_mean(here->linear.about(begin)) + begin, estimated,
-                         [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library); });
+    const auto settled_from = [&](const Eigen::VectorXd& from) {
+      return settled(recording, prior, from, estimated,
+                     [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library); });
+    };
+    auto there = settled_from(prior.posterior_mean(here->linear.about(begin)) + begin);
+    // Far from the nominal vehicle its slopes make tolerances of the gap that no vehicle survives.
+    if (!there) there = settled_from(prior.mean + begin);
     if (!there) {
       // With these effects the vehicle could not have moved as it did.
       scores.set(set, none - kImpossible_nats, true);

@@ -19,104 +19,55 @@ using identify::Channel;
 using identify::Nuisance;
 using identify::RecordedMotion;
 
-struct InstrumentParameter {
+/// Errors that no effect of the simulator is, with the typical value of each of their parameters.
+struct OwnError {
   std::string_view name;
-  Nuisance nuisance;
-  double typical, per_unit;
+  double typical;
+  std::string_view manoeuvre;
 };
+constexpr std::array<OwnError, 6> kOwnErrors{{{"imu_misalignment", 2, "pure yaw, level and pitched"},
+                                              {"compass_deviation", 4, "a full turn"},
+                                              {"dvl_scale", 0.03, "speed steps on reciprocal legs"},
+                                              {"dvl_latency", 0.1, "speed steps and turns"},
+                                              {"dvl_misalignment", 2, "straight legs with fixes"},
+                                              {"actuator_delay", 0.1, "fast steps of the commands"}}};
 
-/// An error of instruments that the fit estimates for each recording anyway. Typical strengths as those of the
-/// simulator's effects of the same name.
+/// An error of instruments that the fit estimates for each recording anyway. Typical strengths and manoeuvres are
+/// those of the simulator's effect of the same name, where there is one.
 struct InstrumentError {
-  std::string_view name, manoeuvre;
-  std::vector<InstrumentParameter> parameters;
+  std::string_view name;
+  std::vector<std::pair<std::string_view, Nuisance>> parameters;
   std::vector<Channel> needs;  ///< one of them
 };
 
 const std::vector<InstrumentError>& instrument_errors() {
+  using enum Nuisance;
+  using enum Channel;
+  const std::vector<Channel> rates{rate_x, rate_y, rate_z}, forces{force_x, force_y, force_z},
+      doppler{bottom_x, water_x};
   static const std::vector<InstrumentError> kAll{
-      {"gyro_scale",
-       "turns at several rates",
-       {{"scale_ax", Nuisance::rate_scale_x, 0.03, 1},
-        {"scale_by", Nuisance::rate_scale_y, 0.03, 1},
-        {"scale_az", Nuisance::rate_scale_z, 0.03, 1}},
-       {Channel::rate_x, Channel::rate_y, Channel::rate_z}},
+      {"gyro_scale", {{"scale_ax", rate_scale_x}, {"scale_by", rate_scale_y}, {"scale_az", rate_scale_z}}, rates},
       {"gyro_drift",
-       "lie still for minutes",
-       {{"deg_per_s2_ax", Nuisance::rate_drift_x, 0.001, base::kRadiansPerDegree},
-        {"deg_per_s2_by", Nuisance::rate_drift_y, 0.001, base::kRadiansPerDegree},
-        {"deg_per_s2_az", Nuisance::rate_drift_z, 0.001, base::kRadiansPerDegree}},
-       {Channel::rate_x, Channel::rate_y, Channel::rate_z}},
-      {"imu_latency",
-       "fast turns to both sides",
-       {{"tau_s", Nuisance::imu_delay, 0.05, 1}},
-       {Channel::rate_x, Channel::rate_z, Channel::force_x}},
-      {"accel_scale",
-       "pitch and roll to both sides",
-       {{"x", Nuisance::force_scale_x, 0.02, 1},
-        {"y", Nuisance::force_scale_y, 0.02, 1},
-        {"z", Nuisance::force_scale_z, 0.02, 1}},
-       {Channel::force_x, Channel::force_y, Channel::force_z}},
-      {"accel_bias",
-       "pitch and roll to both sides",
-       {{"x_m_s2", Nuisance::force_bias_x, 0.12, 1},
-        {"y_m_s2", Nuisance::force_bias_y, 0.12, 1},
-        {"z_m_s2", Nuisance::force_bias_z, 0.12, 1}},
-       {Channel::force_x, Channel::force_y, Channel::force_z}},
+       {{"deg_per_s2_ax", rate_drift_x}, {"deg_per_s2_by", rate_drift_y}, {"deg_per_s2_az", rate_drift_z}},
+       rates},
+      {"accel_bias", {{"x_m_s2", force_bias_x}, {"y_m_s2", force_bias_y}, {"z_m_s2", force_bias_z}}, forces},
+      {"accel_scale", {{"x", force_scale_x}, {"y", force_scale_y}, {"z", force_scale_z}}, forces},
       {"imu_misalignment",
-       "pure yaw, level and pitched",
-       {{"x_deg", Nuisance::imu_turn_x, 2, base::kRadiansPerDegree},
-        {"y_deg", Nuisance::imu_turn_y, 2, base::kRadiansPerDegree},
-        {"z_deg", Nuisance::imu_turn_z, 2, base::kRadiansPerDegree}},
-       {Channel::rate_x, Channel::force_x}},
-      {"tilt_offset",
-       "lie still, then pitch and roll",
-       {{"roll_deg", Nuisance::roll_offset, 1, base::kRadiansPerDegree},
-        {"pitch_deg", Nuisance::pitch_offset, 1, base::kRadiansPerDegree}},
-       {Channel::roll, Channel::pitch}},
-      {"compass_deviation",
-       "a full turn",
-       {{"sine_deg", Nuisance::heading_sine, 4, base::kRadiansPerDegree},
-        {"cosine_deg", Nuisance::heading_cosine, 4, base::kRadiansPerDegree}},
-       {Channel::heading}},
-      {"compass_lag",
-       "turns at several rates to both sides",
-       {{"tau_s", Nuisance::heading_delay, 0.2, 1}},
-       {Channel::heading}},
-      {"depth_scale",
-       "hold two depths far apart",
-       {{"scale", Nuisance::depth_scale, 0.06, 1}},
-       {Channel::depth, Channel::gauge_depth}},
-      {"gps_latency",
-       "turns at the surface, fast and slow",
-       {{"tau_s", Nuisance::fix_delay, 1, 1}},
-       {Channel::north}},
-      {"gps_lever_arm",
-       "turn on the spot at the surface",
-       {{"x_m", Nuisance::antenna_x, 0.45, 1}, {"y_m", Nuisance::antenna_y, 0.45, 1}},
-       {Channel::north}},
-      {"declination",
-       "straight legs with fixes",
-       {{"angle_deg", Nuisance::heading_offset, 4, base::kRadiansPerDegree}},
-       {Channel::heading}},
-      {"dvl_scale",
-       "speed steps on reciprocal legs",
-       {{"scale", Nuisance::doppler_scale, 0.03, 1}},
-       {Channel::bottom_x, Channel::water_x}},
-      {"dvl_latency",
-       "speed steps and turns",
-       {{"tau_s", Nuisance::doppler_delay, 0.1, 1}},
-       {Channel::bottom_x, Channel::water_x}},
-      {"dvl_misalignment",
-       "straight legs with fixes",
-       {{"z_deg", Nuisance::doppler_turn, 2, base::kRadiansPerDegree}},
-       {Channel::bottom_x, Channel::water_x}},
-      {"water_current",
-       "reciprocal legs",
-       {{"north_m_s", Nuisance::current_north, 0.06, 1}, {"east_m_s", Nuisance::current_east, 0.06, 1}},
-       {Channel::north, Channel::bottom_x}},
-      {"actuator_delay", "fast steps of the commands", {{"tau_s", Nuisance::actuator_delay, 0.1, 1}}, {}},
-  };
+       {{"x_deg", imu_turn_x}, {"y_deg", imu_turn_y}, {"z_deg", imu_turn_z}},
+       {rate_x, force_x}},
+      {"imu_latency", {{"tau_s", imu_delay}}, {rate_x, rate_z, force_x}},
+      {"tilt_offset", {{"roll_deg", roll_offset}, {"pitch_deg", pitch_offset}}, {roll, pitch}},
+      {"compass_deviation", {{"sine_deg", heading_sine}, {"cosine_deg", heading_cosine}}, {heading}},
+      {"compass_lag", {{"tau_s", heading_delay}}, {heading}},
+      {"declination", {{"angle_deg", heading_offset}}, {heading}},
+      {"depth_scale", {{"scale", depth_scale}}, {depth, gauge_depth}},
+      {"gps_latency", {{"tau_s", fix_delay}}, {north}},
+      {"gps_lever_arm", {{"x_m", antenna_x}, {"y_m", antenna_y}}, {north}},
+      {"dvl_scale", {{"scale", doppler_scale}}, doppler},
+      {"dvl_latency", {{"tau_s", doppler_delay}}, doppler},
+      {"dvl_misalignment", {{"z_deg", doppler_turn}}, doppler},
+      {"water_current", {{"north_m_s", current_north}, {"east_m_s", current_east}}, {north, bottom_x}},
+      {"actuator_delay", {{"tau_s", actuator_delay}}, {}}};
   return kAll;
 }
 
@@ -176,18 +127,25 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
                                    std::string(identify::describe(error.needs.front()).name));
       continue;
     }
+    const auto own = std::ranges::find(kOwnErrors, error.name, &OwnError::name);
+    const auto simulated = own == kOwnErrors.end() ? sim::make_effect(error.name) : nullptr;
     Cause cause{.name = std::string(error.name),
                 .of = {},
-                .manoeuvre = std::string(error.manoeuvre),
+                .manoeuvre = std::string(simulated ? simulated->description().manoeuvre.text() : own->manoeuvre),
                 .parameters = {},
                 .is_instrument = true};
-    for (const InstrumentParameter& parameter : error.parameters) {
-      cause.parameters.push_back({.name = std::string(parameter.name),
-                                  .typical = parameter.typical,
-                                  .per_unit = parameter.per_unit,
-                                  .low = -kLargestStrength * parameter.typical,
-                                  .high = kLargestStrength * parameter.typical,
-                                  .column = first + static_cast<Eigen::Index>(parameter.nuisance)});
+    for (const auto& [name, nuisance] : error.parameters) {
+      double typical = simulated ? 0 : own->typical;
+      if (simulated) {
+        const auto& all = simulated->description().parameters;
+        typical = std::ranges::find(all, name, &sim::EffectParameter::name)->typical;
+      }
+      cause.parameters.push_back({.name = std::string(name),
+                                  .typical = typical,
+                                  .per_unit = name.find("deg") == name.npos ? 1 : base::kRadiansPerDegree,
+                                  .low = -kLargestStrength * typical,
+                                  .high = kLargestStrength * typical,
+                                  .column = first + static_cast<Eigen::Index>(nuisance)});
     }
     library.causes.push_back(std::move(cause));
   }

@@ -20,6 +20,24 @@ TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   EXPECT_LT(answer.gap.pooled.after, answer.gap.pooled.before);
 }
 
+TEST(DiagnoseLayout, ALateCompassIsNamed) {
+  const auto of = micro();
+  const auto late = [&](std::uint64_t seed) {
+    identify::RecordedMotion motion = recording(of, of.prior, seed);
+    for (identify::Reading& heading : motion.channels[static_cast<std::size_t>(identify::Channel::heading)])
+      heading.time_s += 0.2;
+    return motion;
+  };
+  const gap::Diagnosis answer = diagnose(
+      {.layout = of.prior, .excluded = {}, .threads = 1},
+      {late(1), {}, {recording(of, of.prior, 11), recording(of, of.prior, 31)}, {late(21)}},
+      [](std::string_view, double) {});
+  ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
+  ASSERT_EQ(answer.effects.size(), 1U);
+  EXPECT_EQ(answer.effects[0].name, "compass_lag");
+  EXPECT_NEAR(answer.effects[0].parameters.at(0).value, 0.2, 0.03);
+}
+
 TEST(DiagnoseLayout, MissingCommandsAreSaid) {
   const auto of = micro();
   identify::RecordedMotion without = recording(of, of.prior, 1);
