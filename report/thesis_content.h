@@ -48,8 +48,7 @@ struct ThesisTable {
 struct PathFigure {
   const char* id;
   int path;
-  bool noisy;
-  const char* caption;
+  bool noisy = false;
 };
 
 struct ThesisCurve {
@@ -69,8 +68,9 @@ struct ThesisPanel {
 /// A figure of the thesis.
 struct ThesisFigure {
   std::string id;  ///< "3.1"
-  std::string title, caption;
+  std::string title;
   std::vector<ThesisPanel> panels;
+  std::string caption = {};  ///< empty: that of thesis_captions.txt
 };
 
 /// Cell as on the page.

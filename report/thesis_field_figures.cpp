@@ -3,26 +3,18 @@
 
 #include <array>
 
+#include "base/text_rows.h"
 #include "calib/thesis/printed_tables.h"
 #include "report/thesis_content.h"
 
 namespace navcal::report {
+
+const char* caption_rows();  // thesis_captions.txt
+
 namespace {
 
 using Ink = SvgPlot::Ink;
 using calib::thesis::PrintedCircle;
-
-constexpr std::array<const char*, 5> kFieldCaptions{
-    "Without a distortion the method still leaves 0.08 degrees. The cause is the sampling: the 629 samples of "
-    "0:0.01:2 pi are not even, because the last gap is 0.0032 rad. With even samples the same method leaves "
-    "0.0002 degrees.",
-    "Hard iron shifts the circle and gives one wave of error per turn (axis of the thesis: +-10 degrees). The "
-    "residual is again that of the uneven samples, not imprecise computing.",
-    "Soft iron flattens the circle and gives two waves per turn (axis of the thesis: +-5 degrees).",
-    "Hard and soft iron together (axis of the thesis: +-15 degrees).",
-    "The strongest distortion, with noise of 0.1 uT (axes of the thesis: -40 to 30 and +-1.5 degrees). Nearly all "
-    "of the residual is the noise of the single samples, with both methods; table 4.2 has the error of the "
-    "calibrations alone."};
 
 ThesisFigure field_figure(std::size_t row, const analysis::ThesisCircleTrace& trace) {
   const PrintedCircle& printed = calib::thesis::kTable4_2.at(row);
@@ -31,7 +23,6 @@ ThesisFigure field_figure(std::size_t row, const analysis::ThesisCircleTrace& tr
       printed.shift_y_uT, printed.eccentricity, printed.axis_deg, printed.noise ? ", with noise" : "");
   return {std::string(printed.figure),
           title,
-          kFieldCaptions.at(row),
           {{"Horizontal field",
             "starboard, uT",
             "forward, uT",
@@ -63,6 +54,11 @@ std::vector<ThesisFigure> thesis_figures(const analysis::ThesisResults& results)
   for (const auto& part : {thesis_model_figures(results), thesis_turn_figures(results),
                            thesis_compass_figures(results), thesis_field_figures(results)})
     figures.insert(figures.end(), part.begin(), part.end());
+  const auto captions = base::text_rows(caption_rows(), " ");
+  for (ThesisFigure& figure : figures) {
+    for (const auto& [id, caption] : captions)
+      if (id == figure.id) figure.caption = caption;
+  }
   return figures;
 }
 

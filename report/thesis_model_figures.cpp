@@ -20,29 +20,14 @@ constexpr const char* kTrueHeading = "true heading, degrees";
 constexpr double kLevelField_uT = 19;
 
 struct LevelFieldFigure {
-  const char *id, *title, *caption;
+  const char *id, *title;
   calib::thesis::FieldDistortion distortion{};  ///< its sizes are those of a circle of kLevelField_uT
   double turned_deg = 0;                        ///< of the sensor in the vehicle, clockwise
 };
-const std::array<LevelFieldFigure, 4> kLevelFields{
-    {{"2.3", "Level field without an error",
-      "The tip of the horizontal field runs round a circle of 19 uT as the vehicle turns."},
-     {"2.4",
-      "Level field of a compass that is misaligned",
-      "The circle stays where it is, and each heading is found beside its place: a constant error. The angle of 5 "
-      "degrees is ours.",
-      {},
-      5},
-     {"2.5",
-      "Level field with hard iron",
-      "The circle is shifted; the error is one wave for each turn, within 15 degrees. The shift of 4 and 2.5 uT "
-      "is ours, within that range.",
-      {{4, 2.5}}},
-     {"2.6",
-      "Level field with soft iron",
-      "The circle is flattened; the error is two waves for each turn. Eccentricity 0.6 and axis 30 degrees are "
-      "ours.",
-      {{0, 0}, 0.6, 30}}}};
+const std::array<LevelFieldFigure, 4> kLevelFields{{{"2.3", "Level field without an error"},
+                                                    {"2.4", "Level field of a compass that is misaligned", {}, 5},
+                                                    {"2.5", "Level field with hard iron", {{4, 2.5}}},
+                                                    {"2.6", "Level field with soft iron", {{0, 0}, 0.6, 30}}}};
 
 EllipseShape level_field(const LevelFieldFigure& figure) {
   EllipseShape shape = calib::thesis::distorted_circle(figure.distortion);
@@ -85,7 +70,6 @@ ThesisFigure level_field_figure(const LevelFieldFigure& figure) {
   }
   return {figure.id,
           figure.title,
-          figure.caption,
           {std::move(field),
            {"Error of the heading",
             kTrueHeading,
@@ -106,10 +90,10 @@ ThesisFigure first_fix_figure(const char* id, const analysis::ThesisFirstFixes& 
   return {
       id,
       fmt::format("Time to the first fix after {} minutes under water", fixes.under_s / 60),
+      {{"First fixes", "seconds from surfacing", "occurrences", {std::move(outline)}}},
       fmt::format("On record are the bins of the thesis, 1 to {} s, with up to 5 occurrences, and not the single "
                   "times. Shown are {} surfacings of navcal's simulated receiver with a search of 0 to {} s.",
-                  fixes.longest_s, fixes.times_s.size(), fixes.longest_s),
-      {{"First fixes", "seconds from surfacing", "occurrences", {std::move(outline)}}}};
+                  fixes.longest_s, fixes.times_s.size(), fixes.longest_s)};
 }
 
 }  // namespace
@@ -126,9 +110,6 @@ ThesisFigure thesis_deviation_figure() {
   return {
       "4.1",
       "Heading error of the simulated compass",
-      "A = 0, B = 5, C = -5, D = 2, E = 2 degrees. As in table 4.1, the compass reads psi - E(psi), with E of "
-      "equation (2.7) at the true heading. The error is then -7.0 to 9.6 degrees; the axis of the thesis reaches "
-      "from -8 to 10 degrees.",
       {{"Error of the heading", kTrueHeading, "degrees", {round_curve("", Ink::second, [&](double heading_rad) {
           return -calib::thesis::deviation_rad(deviation, heading_rad) * base::kDegreesPerRadian;
         })}}}};
@@ -138,9 +119,6 @@ ThesisFigure thesis_hard_iron_figure() {
   const EllipseShape shape = level_field(kLevelFields[2]);
   return {"4.7",
           "Hard iron and its model",
-          "The heading error of the field of figure 2.5, and the sinusoid B sin + C cos of equation (2.4) at the "
-          "measured heading, with B and C from shift and radius. The error is the arc sine of the sinusoid, which "
-          "is 0.15 degrees more at the peaks.",
           {{"Error of the heading",
             kTrueHeading,
             "degrees",

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text_rows.h"
 #include "calib/thesis/printed_tables.h"
 #include "report/thesis_content.h"
 
 namespace navcal::report {
+
+const char* errata_rows();  // thesis_errata.txt
+
 namespace {
 
 /// Least and largest of several numbers.
@@ -91,38 +95,10 @@ std::vector<ThesisFinding> thesis_findings(const analysis::ThesisResults& result
 }
 
 std::vector<std::vector<std::string>> thesis_errata() {
-  return {
-      {"section 3.2",
-       "The printed constants are garbled. K = -0.75 and Lambda = diag(2, 0.2) reproduce table 3.2; K = -2 and "
-       "Lambda = diag(0.75, 0.2) do not."},
-      {"chapters 3, 4",
-       "The sample period is not printed. Only 0.1 s with forward Euler reproduces the numbers of paths 7 and 8."},
-      {"table 4.1",
-       "Deviation was injected at the true heading, although (2.8) has it at the measured one. Hence the floor of "
-       "its metric."},
-      {"tables 3.1, 4.1",
-       "Percentages are of |true| in tables 3.1 and 3.2, and of the signed true value in table 4.1: C of path 1 "
-       "is above the truth, and its percentage is negative."},
-      {"text on table 3.1",
-       "The text calls paths 1, 7 and 8 the worst. That is so for bbar; the worst abar is that of path 5."},
-      {"figures 4.3(d), 4.5(d)",
-       "Their axes do not agree with table 4.1. Figures and table come from different runs."},
-      {"figures 4.8 to 4.11",
-       "The residual of 0.08 degrees is called imprecise computing. It comes from the uneven sampling 0:0.01:2 "
-       "pi."},
-      {"(2.1), (2.2)", "The sign does not fit the axes of figure 1.3; with them psi = atan2(-yh, xh)."},
-      {"(2.10)",
-       "Roll is neglected, which drops a term as large as the one that is kept: the rate comes out as r "
-       "cos^2(roll)."},
-      {"(2.11)", "The unit rad/s/volt of a is wrong: a has no unit."},
-      {"(3.4), (4.6)",
-       "All rows hang on the first compass reading, and their noise is a random walk. Ordinary least squares is "
-       "inefficient there."},
-      {"(3.15)", "The factor cos(roll)/cos(pitch) of (3.16) is missing in the gradient."},
-      {"(4.14), (4.17)",
-       "A plain arc tangent cannot tell the major axis from the minor one, and two single maxima carry the noise "
-       "of two samples."},
-  };
+  std::vector<std::vector<std::string>> all;
+  for (const auto& [place, text] : base::text_rows(errata_rows(), ": "))
+    all.push_back({std::string(place), std::string(text)});
+  return all;
 }
 
 }  // namespace navcal::report

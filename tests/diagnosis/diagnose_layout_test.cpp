@@ -28,10 +28,10 @@ TEST(DiagnoseLayout, ALateCompassIsNamed) {
       heading.time_s += 0.2;
     return motion;
   };
-  const gap::Diagnosis answer = diagnose(
-      {.layout = of.prior, .excluded = {}, .threads = 1},
-      {late(1), {}, {recording(of, of.prior, 11), recording(of, of.prior, 31)}, {late(21)}},
-      [](std::string_view, double) {});
+  const gap::Diagnosis answer =
+      diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
+               {late(1), {}, {recording(of, of.prior, 11), recording(of, of.prior, 31)}, {late(21)}},
+               [](std::string_view, double) {});
   ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
   ASSERT_EQ(answer.effects.size(), 1U);
   EXPECT_EQ(answer.effects[0].name, "compass_lag");
