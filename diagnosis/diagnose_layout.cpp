@@ -254,9 +254,6 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
 
 Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
                    const std::vector<std::filesystem::path>& nominals, const gap::Progress& progress) {
-  if (files.field_uT)
-    throw std::invalid_argument(
-        "--field: the diagnosis of a layout takes the heading's offset from each recording");
   if (files.bank_missions != gap::Request{}.bank_missions)
     throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   record::SeenRecordings seen;
@@ -268,6 +265,7 @@ Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
       motions.push_back(identify::load_motion(
           file, [&](double done) { progress("reading " + file.filename().string(), done); }, files.settings,
           files.window));
+      if (files.field_uT) identify::set_field(motions.back(), *files.field_uT);
       leave_out(files.without, motions.back());
     }
     return motions;

@@ -252,6 +252,13 @@ RecordedMotion MotionGatherer::take(std::int64_t begin_ns) {
 
 }  // namespace
 
+void set_field(RecordedMotion& motion, const std::array<double, 3>& field_uT) {
+  const auto [north, east, down] = field_uT;
+  motion.declination_rad = std::atan2(east, north);
+  motion.dip_rad = std::atan2(down, std::hypot(north, east));
+  motion.declination_is_stated = true;
+}
+
 RecordedMotion thinned(RecordedMotion motion, double interval_s) {
   constexpr double kRounding_s = 1e-3;
   for (std::vector<Reading>& readings : motion.channels) {

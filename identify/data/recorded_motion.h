@@ -51,6 +51,7 @@ struct RecordedMotion {
   double dip_rad = 0;                     ///< of the Earth's field, by the compass; only with a lag
   double gyro_turn_on_rad_s = 0;          ///< standard deviation of the bias at power-on
   bool heading_is_true = false;           ///< as the device states it; else magnetic
+  bool declination_is_stated = false;     ///< by the user
   std::optional<double> declination_rad;  ///< by the configuration, else by the model at the fixes; positive east
   std::vector<std::string> remarks;
 
@@ -59,6 +60,9 @@ struct RecordedMotion {
   }
   [[nodiscard]] bool has(Channel channel) const { return !(*this)[channel].empty(); }
 };
+
+/// States the Earth's field of a recording: north, east, down.
+void set_field(RecordedMotion& motion, const std::array<double, 3>& field_uT);
 
 /// The same with at most one reading of each channel in `interval_s`.
 [[nodiscard]] RecordedMotion thinned(RecordedMotion motion, double interval_s);

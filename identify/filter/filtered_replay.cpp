@@ -178,6 +178,9 @@ std::size_t FilteredReplay::stretches() const {
 Eigen::VectorXd FilteredReplay::start() const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(std::ssize(parameters_) + kNuisances);
   values.head(std::ssize(parameters_)) = prior_values(parameters_);
+  if (recorded_.declination_is_stated && !recorded_.heading_is_true)
+    values[std::ssize(parameters_) + static_cast<Eigen::Index>(Nuisance::heading_offset)] =
+        -*recorded_.declination_rad;
   return values;
 }
 

@@ -72,7 +72,7 @@ class FilteredReplay {
   FilteredReplay(config::Layout layout, std::vector<Parameter> parameters, const RecordedMotion& recorded,
                  const FilterNoises& noises, unsigned threads = 2);
 
-  /// Parameters at their priors, nuisances zero.
+  /// Parameters at their priors, nuisances zero but for a stated declination.
   [[nodiscard]] Eigen::VectorXd start() const;
   /// Leaves out five seconds before each place where the filter leaves all bounds with these values, until it
   /// passes; returns their number. Throws std::invalid_argument where less than half of the readings remain.

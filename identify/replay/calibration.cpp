@@ -61,6 +61,7 @@ Calibration nuisance_stds(const RecordedMotion& motion) {
   Calibration stds;
   for (std::size_t i = 0; i < nuisances().size(); ++i)
     stds[static_cast<Eigen::Index>(i)] = nuisances()[i].prior_std;
+  if (motion.declination_is_stated) stds[static_cast<Eigen::Index>(Nuisance::heading_offset)] = 0.05;
   if (motion.gyro_turn_on_rad_s > 0) stds.head<4>().setConstant(motion.gyro_turn_on_rad_s);
   return stds;
 }

@@ -63,7 +63,7 @@ struct NuisanceDescription {
 };
 
 /// Prior standard deviations: of instruments as they are built and fitted (turn-on bias of the gyros by the
-/// configuration). The offset of the heading contains the declination, which is unknown without a place.
+/// configuration). The offset of the heading contains the declination, unless that is stated.
 [[nodiscard]] const std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)>& nuisances();
 [[nodiscard]] Calibration nuisance_stds(const RecordedMotion& motion);
 

@@ -159,6 +159,20 @@ TEST(FilteredReplay, LateReadingsAreThoseOfTheMotionBefore) {
   }
 }
 
+TEST(FilteredReplay, AStatedFieldIsWhereMagneticHeadingsBegin) {
+  FilterExample example(8);
+  set_field(example.recording, {15, 5, 40});
+  const double declination_rad = std::atan2(5, 15);
+  const auto offset = static_cast<Eigen::Index>(Nuisance::heading_offset);
+  const auto begin = [&] { return example.filter().start().tail<kNuisances>()[offset]; };
+  EXPECT_DOUBLE_EQ(begin(), -declination_rad);
+  EXPECT_LT(nuisance_stds(example.recording)[offset], 0.1);
+  EXPECT_NEAR(example.recording.dip_rad, std::atan2(40, std::hypot(15, 5)), 1e-12);
+  example.recording.heading_is_true = true;
+  EXPECT_EQ(begin(), 0);
+  EXPECT_GT(nuisance_stds(RecordedMotion{})[offset], 0.3);
+}
+
 // A dead band of 3 % that no command between it and 6 % told: its slope was zero there, and its estimate lost.
 TEST(FilteredReplay, AnEffectThatHasNoSlopeWhereItIsHasItFromZero) {
   const FilterExample example(8);
