@@ -332,7 +332,7 @@ std::vector<FilterModel::Acceleration> FilteredReplay::accelerations(const Cours
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
     if (step.starts_anew) continue;
-    // What readings correct of the state in between changes forces little.
+    // The readings in between move the state too little to change forces.
     const bool goes_on = k > 0 && !steps_[k - 1].starts_anew;
     all[k] = model.acceleration_over(course.begins[k], course.ends[k], step.time_s - step.length_s, step.length_s,
                                      goes_on ? &all[k - 1].end : nullptr);
