@@ -123,9 +123,8 @@ class Verdict:
         return sorted(quiet), sorted(beside)
 
     def problems(self, live=True):
-        """What must never be, in words; empty when all is well. Only what is asked of the live samples, and of the clock
-        that they make in so short a time, depends on the machine's speed: a host that reads the rest of a frame a
-        quarter of a second late has it given up."""
+        """What must never be, in words; empty when all is well. Only what is asked of the live samples depends on the
+        machine's speed: a host that reads the rest of a frame a quarter of a second late has it given up."""
         found = []
         for name, port in self.ports.items():
             reached = port.reached
@@ -143,7 +142,7 @@ class Verdict:
                 found.append(f"{name}: {sum(port.unsampled)} intact frames without a sample")
         for name, rate_Hz in PACED_Hz.items():
             period_s = self.ports[name].clock["period_s"]
-            if live and abs(period_s * rate_Hz - 1) > PERIOD_TOLERANCE:
+            if abs(period_s * rate_Hz - 1) > PERIOD_TOLERANCE:
                 found.append(f"{name}: the clock's period is {period_s} s at the end")
         for kind, row in self.kinds().items():
             if row["never"]:
