@@ -134,12 +134,13 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
                 .manoeuvre = std::string(simulated ? simulated->description().manoeuvre.text() : own->manoeuvre),
                 .parameters = {},
                 .is_instrument = true};
+    const auto typical_of = [&](std::string_view name) {
+      if (!simulated) return own->typical;
+      const auto& all = simulated->description().parameters;
+      return std::ranges::find(all, name, &sim::EffectParameter::name)->typical;
+    };
     for (const auto& [name, nuisance] : error.parameters) {
-      double typical = simulated ? 0 : own->typical;
-      if (simulated) {
-        const auto& all = simulated->description().parameters;
-        typical = std::ranges::find(all, name, &sim::EffectParameter::name)->typical;
-      }
+      const double typical = typical_of(name);
       cause.parameters.push_back({.name = std::string(name),
                                   .typical = typical,
                                   .per_unit = name.find("deg") == name.npos ? 1 : base::kRadiansPerDegree,

@@ -210,8 +210,7 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
   recorded.tilt_lag_s = request.tilt_lag_s;
   recorded.dip_rad = request.dip_rad;
   const PredictedReadings instruments(recorded);
-  const Eigen::Vector3d current(get(request.calibration, Nuisance::current_north),
-                                get(request.calibration, Nuisance::current_east), 0);
+  const Eigen::Vector3d current = current_of(request.calibration);
   std::mt19937_64 random(request.seed.value_or(0));
   std::normal_distribution<double> normal;
   for (const ChannelNoise& channel : request.channels) {

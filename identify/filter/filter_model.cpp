@@ -91,10 +91,6 @@ bool FilterModel::feels_forces(Channel channel) const {
          (channel <= Channel::water_z && describe(channel).unit.ends_with("/s") && age_of(channel) != 0);
 }
 
-Eigen::Vector2d FilterModel::current() const {
-  return {get(calibration_, Nuisance::current_north), get(calibration_, Nuisance::current_east)};
-}
-
 double FilterModel::age_of(Channel channel) const {
   const auto delay = delay_of(channel);
   return delay ? get(calibration_, *delay) : 0;
@@ -105,8 +101,7 @@ MotionPoint FilterModel::before(MotionPoint point, double age_s) const {
   const Eigen::Vector3d v = body.velocity.head<3>(), omega = body.velocity.tail<3>();
   const double sr = std::sin(body.euler_rad.x()), cr = std::cos(body.euler_rad.x());
   const double turn = (sr * omega.y() + cr * omega.z()) / std::cos(body.euler_rad.y());
-  body.position_m -= age_s * (world_from_body(body.euler_rad) * v);
-  body.position_m.head<2>() -= age_s * current();
+  body.position_m -= age_s * (world_from_body(body.euler_rad) * v + current());
   body.euler_rad -= age_s * Eigen::Vector3d(omega.x() + std::sin(body.euler_rad.y()) * turn,
                                             cr * omega.y() - sr * omega.z(), turn);
   body.velocity -= age_s * point.acceleration;
@@ -130,7 +125,7 @@ FilterState FilterModel::after(const FilterState& state, const Moved& moved, dou
   body.velocity += kick;
   body = vehicle_.moved_step(body, moved.begin, moved.middle, moved.end, step_s).body;
   body.velocity += kick;
-  body.position_m.head<2>() += step_s * current();
+  body.position_m += step_s * current();
   FilterState end;
   end << body.position_m, body.euler_rad, body.velocity,
       lagged_tilt(state.segment<2>(kTilt), state.segment<2>(kEuler), body.euler_rad.head<2>(), tilt_lag_s_,
@@ -150,8 +145,8 @@ StepDerivatives FilterModel::derivatives(const FilterState& state, const FilterS
     all.col(i) = (after(moved, actuators, step_s, tau_s) - end).head<kStates>() / difference;
   }
   // Yaw turns the way that the vehicle goes through the water, and nothing else.
-  all(0, 2) = -(end[1] - state[1] - step_s * get(calibration_, Nuisance::current_east));
-  all(1, 2) = end[0] - state[0] - step_s * get(calibration_, Nuisance::current_north);
+  all(0, 2) = -(end[1] - state[1] - step_s * current().y());
+  all(1, 2) = end[0] - state[0] - step_s * current().x();
   all(5, 2) = 1;
   return all;
 }

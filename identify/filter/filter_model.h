@@ -55,8 +55,7 @@ class FilterModel {
   [[nodiscard]] bool is_driven_as(const FilterModel& other) const;
   /// Whether a channel's readings depend on the acceleration: an accelerometer's, and a velocity's that is late.
   [[nodiscard]] bool feels_forces(Channel channel) const;
-  /// North and east, m/s.
-  [[nodiscard]] Eigen::Vector2d current() const;
+  [[nodiscard]] Eigen::Vector3d current() const { return current_of(calibration_); }
   /// Readings less predictions at one instant, angles wrapped, to `out`.
   void innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
                    double* out) const;

@@ -150,12 +150,13 @@ class FilteredReplay {
   [[nodiscard]] const Channels& shown_in(Nuisance nuisance) const {
     return shown_in_[static_cast<std::size_t>(nuisance)];
   }
-  /// What is linearised about: a course of a model, and its accelerations.
+  /// A course of a model, about which it is linearised, and what all columns share.
   struct About {
     const FilterPass& pass;
     const FilterModel& model;
     Course course;
     std::vector<FilterModel::Acceleration> accelerations;
+    std::vector<Transition> transitions;  ///< of the pass; of no meaning where the filter starts anew
   };
   /// Derivative of the white innovations: what `moved` changes, which `shown_in` see at once, over `by`.
   [[nodiscard]] Eigen::VectorXd slope(const About& about, const FilterModel& moved, const Channels& shown_in,

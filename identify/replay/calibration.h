@@ -67,13 +67,18 @@ struct NuisanceDescription {
 [[nodiscard]] const std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)>& nuisances();
 [[nodiscard]] Calibration nuisance_stds(const RecordedMotion& motion);
 
-/// Of an age, which shifts a reading by more than small changes of its number do (commands jump).
+/// Whether a nuisance is an age. Commands jump, so its differences need a longer step than those of other numbers.
 [[nodiscard]] constexpr bool is_delay(Nuisance nuisance) { return nuisance >= Nuisance::imu_delay; }
 /// The nuisance that is the age of a channel's readings; nullopt: none is.
 [[nodiscard]] std::optional<Nuisance> delay_of(Channel channel);
 
 [[nodiscard]] inline double get(const Calibration& calibration, Nuisance nuisance) {
   return calibration[static_cast<Eigen::Index>(nuisance)];
+}
+
+/// Of the water: north, east, 0; m/s.
+[[nodiscard]] inline Eigen::Vector3d current_of(const Calibration& calibration) {
+  return {get(calibration, Nuisance::current_north), get(calibration, Nuisance::current_east), 0};
 }
 
 }  // namespace navcal::identify

@@ -33,7 +33,7 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
   const auto vector = [&](Nuisance first) {
     return Eigen::Vector3d(calibration.segment<3>(static_cast<Eigen::Index>(first)));
   };
-  const Eigen::Vector3d current(value(Nuisance::current_north), value(Nuisance::current_east), 0);
+  const Eigen::Vector3d current = current_of(calibration);
   const Eigen::Vector3d imu_turn = vector(Nuisance::imu_turn_x);
   const Eigen::Matrix3d doppler_from_body =
       Eigen::AngleAxisd(-value(Nuisance::doppler_turn), Eigen::Vector3d::UnitZ()).toRotationMatrix();

@@ -184,7 +184,7 @@ RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth
   request.seconds = seconds;
   request.seed = seed + 1;
   request.reports_positions = of.reports_positions;
-  // Of their own numbers, so that the commands stay as they are when an error is added. Nothing here is late.
+  // The errors have a generator of their own: the commands do not depend on how many there are. Nothing is late.
   std::mt19937_64 errors(seed + 2);
   for (Eigen::Index i = 0; i < kNuisances; ++i) {
     if (!is_delay(static_cast<Nuisance>(i))) request.calibration[i] = instrument_errors * stds[i] * normal(errors);

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// FilteredReplay::linearise().
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "identify/filter/filtered_replay.h"
+#include "identify/replay/motion_point.h"
+
+namespace navcal::identify {
+namespace {
+
+constexpr double kColumnPart = 1e-3;  ///< of a prior's standard deviation
+constexpr double kDelayColumn_s = 0.005;
+
+}  // namespace
+
+std::vector<FilterModel::Acceleration> FilteredReplay::accelerations(const Course& course,
+                                                                     const FilterModel& model) const {
+  std::vector<FilterModel::Acceleration> all(steps_.size());
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    if (step.starts_anew) continue;
+    // The readings in between move the state too little to change forces.
+    const bool goes_on = k > 0 && !steps_[k - 1].starts_anew;
+    all[k] = model.acceleration_over(course.begins[k], course.ends[k], step.time_s - step.length_s, step.length_s,
+                                     goes_on ? &all[k - 1].end : nullptr);
+  }
+  return all;
+}
+
+Eigen::VectorXd FilteredReplay::slope(const About& about, const FilterModel& moved, const Channels& shown_in,
+                                      double by) const {
+  const Course& course = about.course;
+  const Eigen::Vector3d carried = (moved.current() - about.model.current()) / by;
+  const auto by_moved =
+      moved.is_driven_as(about.model) ? std::vector<FilterModel::Acceleration>{} : accelerations(course, moved);
+  Eigen::VectorXd white = Eigen::VectorXd::Zero(course.white.size());
+  std::vector<double> innovations = course.innovations;
+  FilterState apart = FilterState::Zero();  // of the two vehicles, over `by`
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    if (step.starts_anew) {
+      apart.setZero();
+    } else {
+      const Transition& transition = about.transitions[k];
+      apart = transition * apart;
+      if (!by_moved.empty()) {
+        // The integral of exp(A t) by its end F: (F + 1)/2 - (F - 1)^2/12. What falls over the step moves further.
+        FilterState kick = FilterState::Zero(), sooner = kick;
+        kick.segment<6>(6) = step.length_s / by * (by_moved[k].mean - about.accelerations[k].mean);
+        sooner.segment<6>(6) = step.length_s / by * (by_moved[k].fall - about.accelerations[k].fall);
+        const FilterState grown = transition * kick - kick;
+        const FilterState less = grown - sooner;
+        apart += kick + grown / 2 - (transition * less - less) / 12;
+      }
+      apart.head<3>() += step.length_s * carried;
+    }
+    const auto readings = readings_of(step);
+    if (std::ranges::any_of(readings, [&](const ChannelReading& reading) {
+          return shown_in[static_cast<std::size_t>(reading.channel)];
+        }))
+      moved.innovations(course.ends[k], step.time_s, readings, innovations.data() + step.first);
+    for (std::size_t i = step.first; i < step.first + step.count; ++i) {
+      const FilterPass::Reading& held = about.pass.readings[i];
+      const double innovation = (innovations[i] - course.innovations[i]) / by - held.sensitivity.dot(apart);
+      if (!held.is_settling) white[static_cast<Eigen::Index>(i)] = innovation / std::sqrt(held.variance);
+      apart += held.gain * innovation;
+    }
+  }
+  return white;
+}
+
+std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& at_values,
+                                                          std::span<const Eigen::Index> columns) const {
+  const Driven nominal = driven_by(at_values);
+  const FilterModel model = model_of(nominal, at_values);
+  About about{pass, model, replayed(pass, model), {}, {}};
+  if (about.course.white.size() == 0) return std::nullopt;
+  about.accelerations = accelerations(about.course, model);
+  for (std::size_t k = 0; k < steps_.size(); ++k)
+    about.transitions.emplace_back(pass.steps[k].derivatives, recorded_.tilt_lag_s, steps_[k].length_s,
+                                   noises_.tau_s);
+  FilterLinearised out{{}, about.course.white, about.course.white.squaredNorm(), pass.log_det()};
+  out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
+  const auto parameters = std::ssize(parameters_);
+  const Calibration stds = nuisance_stds(recorded_);
+  // An accelerometer feels forces at once, and what is late is asked of the motion before.
+  Channels felt;
+  for (std::size_t i = 0; i < kChannels; ++i) felt[i] = model.feels_forces(static_cast<Channel>(i));
+  base::in_parallel(threads_, columns.size(), [&](std::size_t c) {
+    const Eigen::Index at = columns[c];
+    auto column = out.jacobian.col(static_cast<Eigen::Index>(c));
+    if (at >= parameters) {
+      const auto nuisance = static_cast<Nuisance>(at - parameters);
+      if (!matters(nuisance)) return;
+      const double step = is_delay(nuisance) ? kDelayColumn_s : kColumnPart * stds[at - parameters];
+      Eigen::VectorXd values = at_values;
+      values[at] += step;
+      column = slope(about, model_of(nominal, values),
+                     nuisance == Nuisance::actuator_delay ? felt : shown_in(nuisance), step);
+      return;
+    }
+    const Parameter& parameter = parameters_[static_cast<std::size_t>(at)];
+    const auto slope_over = [&](double step) {
+      Eigen::VectorXd values = at_values;
+      values[at] += step;
+      const config::Layout layout = with_values(layout_, parameters_, values.head(parameters));
+      const Driven moved{sim::LayoutVehicle(layout),
+                         moves_actuators(parameter)
+                             ? std::make_shared<const ActuatorTrajectory>(inputs_.trajectory(layout))
+                             : nominal.actuators};
+      return slope(about, model_of(moved, values), felt, step);
+    };
+    const double step = parameter.step > 0 ? parameter.step : kColumnPart * parameter.prior_std;
+    // An effect that cannot be negative is not linear about zero; away from zero it is, but for a dead band in
+    // whose end no command lies.
+    if (parameter.change && parameter.low == 0 && at_values[at] > step / 4) {
+      column = slope_over(-at_values[at] / 4);
+      if (column.isZero(0)) column = slope_over(-at_values[at]);
+    } else {
+      column = slope_over(at_values[at] + step > parameter.high ? -step : step);
+    }
+  });
+  return out;
+}
+
+}  // namespace navcal::identify
