@@ -35,6 +35,7 @@ constexpr double kLostShareFactor = 1.5;
 // Periods: a loss by time alone after a frame so late shows that the period is too short.
 constexpr double kLateBeforeLoss = 0.4;
 constexpr int kRegularFitsMost = 96;      // runs of 32 frames
+constexpr double kTilt = 20;              // mean delays, by which changing delays can tilt the line through a run
 constexpr double kShareGain = 1.0 / 24;   // per frame
 constexpr double kBurstGain = 1.0 / 256;  // per frame: a stall of some seconds is no change of rhythm
 constexpr double kBurstMargin = 0.5;      // periods beyond a burst's length, before frames are thought lost
@@ -160,6 +161,7 @@ void FrameClock::settle(const PeriodFit& fit) {
   finder_.clear();
   if (!fit.periodic(nominal_s_)) return turn_irregular(fit.too_fast(nominal_s_) ? 1 : regular_fits_);
   if (timing_ == Timing::irregular && --fits_to_regular_ > 0) return;
+  if (!confirms(fit)) return;
   model_.begin(index_, fit);
   if (!sequence_) lost_ += static_cast<std::uint64_t>(fit.lost);
   timing_ = fit.bursts() ? Timing::bursts : Timing::periodic;
@@ -171,6 +173,16 @@ void FrameClock::settle(const PeriodFit& fit) {
   model_known_ = true;
   tell_rhythm(timing_);
   frames_tracked_ = 0;
+}
+
+/// Delays that grow or shrink within a run tilt the line through it. A period that differs from the known one by
+/// no more than such a tilt must be found in a second run, too.
+bool FrameClock::confirms(const PeriodFit& fit) {
+  const double period_s = fit.line.slope_s;
+  const double change_s = std::abs(period_s - (model_known_ ? model_.period_s() : nominal_s_));
+  const double before_s = std::exchange(unconfirmed_period_s_, period_s);
+  return std::min(change_s, std::abs(period_s - before_s)) < kRateTolerance * period_s ||
+         change_s * fit.frames > kTilt * fit.line.delay_s;
 }
 
 /// Reports a change of the rhythm, once.

@@ -45,6 +45,7 @@ class FrameClock {
   TimeEstimate track(const FrameObservation& frame);
   TimeEstimate by_arrival(const FrameObservation& frame);
   void settle(const PeriodFit& fit);
+  bool confirms(const PeriodFit& fit);
   void search_again();
   void turn_irregular(int fits);
   /// Ticks since the frame before, in `track`.
@@ -74,8 +75,9 @@ class FrameClock {
   bool any_ = false;
   std::optional<ClockNews> news_;  ///< not reported yet
   Timing told_timing_ = Timing::periodic;
-  double told_period_s_ = 0;  ///< 0: none but the configured one
-  bool model_known_ = false;  ///< the model has been tracking before
+  double told_period_s_ = 0;         ///< 0: none but the configured one
+  bool model_known_ = false;         ///< the model has been tracking before
+  double unconfirmed_period_s_ = 0;  ///< of the run before, in `search`
   std::uint64_t frames_tracked_ = 0;
   int regular_fits_ = 3;  ///< runs of frames in a row that make an irregular stream a regular one
   int fits_to_regular_ = 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "base/durations.h"
 #include "tests/instruments/clock_simulation.h"
 
@@ -100,6 +102,40 @@ TEST(FrameClock, LearnsARateThatIsNotTheConfiguredOne) {
     for (int k = 0; k < 200; ++k) clock.update(at(10 + k / rate_Hz));
     EXPECT_NEAR(clock.state().period_s, 1 / rate_Hz, 1e-3 / rate_Hz);
   }
+}
+
+// A machine's load comes and goes: mean delays between 0.1 and 40 ms for a third of a second to three seconds
+// each. Late frames at one end of a run tilt the line through it by some per cent.
+TEST(FrameClock, ALoadThatComesAndGoesIsNoOtherRate) {
+  constexpr double kPeriod_s = 0.05;
+  int locked = 0;
+  for (unsigned seed = 0; seed < 2000; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> share(0, 1);
+    FrameClock clock(20, 0);
+    double mean_s = 0, until_s = 0, arrival_s = 0;
+    for (int k = 0; k < 200; ++k) {
+      if (k * kPeriod_s >= until_s) {
+        until_s = k * kPeriod_s + 0.3 * std::pow(10, share(random));
+        mean_s = 1e-4 * std::pow(10, 2.6 * share(random));
+      }
+      arrival_s = std::max(arrival_s + 1e-4, k * kPeriod_s - mean_s * std::log1p(-share(random)));
+      clock.update(at(10 + arrival_s, k));
+      if (!clock.state().locked) continue;
+      ++locked;
+      ASSERT_NEAR(clock.state().period_s, kPeriod_s, 0.01 * kPeriod_s) << "seed " << seed << ", frame " << k;
+    }
+  }
+  EXPECT_GT(locked, 100'000);
+}
+
+TEST(FrameClock, AnotherRateIsFoundInARunOfUnevenDelaysToo) {
+  std::mt19937_64 random(3);
+  std::exponential_distribution<double> delay_s(1 / 3e-3);
+  FrameClock clock(20, 0);
+  for (int k = 0; k < 128; ++k) clock.update(at(10 + k * 0.0505 + delay_s(random), k));
+  EXPECT_TRUE(clock.state().locked);
+  EXPECT_NEAR(clock.state().period_s, 0.0505, 1e-4);
 }
 
 }  // namespace
