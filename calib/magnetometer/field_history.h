@@ -24,6 +24,8 @@ class FieldHistory {
   void add(const FieldCells<3, 6>::Cell& reading, double time_s, std::int64_t utc_ns);
   /// The field stepped: what comes belongs to another segment.
   void begin_segment(const FieldStep& step);
+  /// The vehicle is at another place: what comes is no evidence about the steps so far.
+  void begin_place() { before_ = now_ = FieldHistory().now_; }
   /// Fits the last two segments anew. To be called at the end, before a new segment, and now and then. True: the
   /// last step is withdrawn, and its two segments are one. `is_sure`: the last step is none to be withdrawn.
   bool refine(const SegmentNoise& noise, const SegmentBelief& belief, bool is_sure = false);

@@ -3,8 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navcal::calib {
+namespace {
+
+/// A run begins after a pause of at least half of what the clock is put forward by at a restart (Gate).
+constexpr double kRunGap_s = 1800;
+/// Readings as a run begins that show whether it is at another place.
+constexpr std::size_t kArrival = 20;
+
+bool is_another(const KnownField& field, const KnownField& before) {
+  constexpr double kSize_uT = 1, kDip_rad = 0.02;
+  return std::abs(field.magnitude_uT - before.magnitude_uT) > kSize_uT ||
+         std::abs(field.dip_rad - before.dip_rad) > kDip_rad;
+}
+
+}  // namespace
 
 void Magnetometer::Reading::archive(Archive& archive) {
   archive(field_body_uT, roll_rad, pitch_rad, has_turn, turn.time_s, turn.heading_rad, turn.begins_segment);
@@ -19,13 +34,24 @@ void Magnetometer::Waiting::archive(Archive& archive) {
 
 Magnetometer::Estimators::Estimators(const Parameters& parameters)
     : ellipse(parameters.ellipse), gyro(parameters.gyro), ellipsoid(parameters.ellipsoid),
-      predictor(parameters.ellipsoid.noise_uT, parameters.ellipsoid.known) {}
+      predictor(parameters.ellipsoid.noise_uT, parameters.ellipsoid.known), known(parameters.ellipsoid.known) {}
 
 void Magnetometer::Estimators::update(const Reading& reading, const PredictedReading& predicted) {
   ellipse.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
   ellipsoid.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
   if (reading.has_turn) gyro.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad, reading.turn);
   predictor.update(predicted, [this] { return ellipsoid.cells(); });
+}
+
+void Magnetometer::Estimators::set_known(const std::optional<KnownField>& field) {
+  known = field;
+  ellipsoid.set_known(field);
+}
+
+void Magnetometer::Estimators::settle() {
+  ellipse.settle();
+  gyro.settle();
+  ellipsoid.settle();
 }
 
 void Magnetometer::Estimators::archive(Archive& archive) { archive(ellipse, gyro, ellipsoid, predictor); }
@@ -77,7 +103,16 @@ void Magnetometer::update(const Reading& reading) {
     last_down_ = down;
     last_time_s_ = reading.time_s;
   }
+  if (!is_arriving_ && !history_.segments().empty() &&
+      reading.time_s - history_.segments().back().end_s > kRunGap_s) {
+    release();  // what came before the pause is of the place before
+    watch_.reset();
+    past_.clear();
+    is_arriving_ = true;
+  }
   waiting_.push_back(next);
+  if (is_arriving_ && waiting_.size() < kArrival) return;
+  if (std::exchange(is_arriving_, false)) return is_at_another_place() ? begin_place() : release();
   const bool suspicious = watch_.update(now_.predictor.surprise(next.predicted));
   if (watch_.since_onset() == 0) {
     release();
@@ -145,8 +180,38 @@ void Magnetometer::set_tilt_noise(double tilt_noise_rad) {
 void Magnetometer::set_known_field(const std::optional<KnownField>& known) {
   answer_.reset();
   parameters_.ellipsoid.known = known;
-  now_.ellipsoid.set_known(known);
-  if (before_) before_->ellipsoid.set_known(known);
+  if (known && now_.known && is_another(*known, *now_.known)) begin_place();
+  now_.set_known(known);
+  if (before_ && !is_elsewhere_) before_->set_known(known);
+}
+
+/// True when what waits disagrees with what is known of the field, or is of a size that was never seen. A level
+/// vehicle knows nothing of the vertical, so that there any field agrees.
+bool Magnetometer::is_at_another_place() const {
+  constexpr double kSurprising = 4, kMost = 25, kBeyond = 0.15;  // as for a step; of the size
+  double surprise = 0, size_uT = 0, least_uT = INFINITY, most_uT = 0;
+  for (const Waiting& waiting : waiting_) {
+    surprise += std::min(now_.predictor.surprise(waiting.predicted), kMost) / kArrival;
+    size_uT += waiting.reading.field_body_uT.norm() / kArrival;
+  }
+  for (const auto& cell : now_.ellipsoid.cells()) {
+    least_uT = std::min(least_uT, cell.mean.head<3>().norm());
+    most_uT = std::max(most_uT, cell.mean.head<3>().norm());
+  }
+  return surprise > kSurprising || size_uT < (1 - kBeyond) * least_uT || size_uT > (1 + kBeyond) * most_uT;
+}
+
+void Magnetometer::begin_place() {
+  history_.begin_place();
+  const bool is_better_before = is_elsewhere_ && chosen(now_).method == Method::none;
+  if (!is_better_before) {
+    before_ = now_;
+    before_->settle();
+  }
+  now_ = Estimators(parameters_);
+  is_elsewhere_ = true;
+  ++moves_;
+  use_waiting();
 }
 
 void Magnetometer::settle() {
@@ -154,13 +219,12 @@ void Magnetometer::settle() {
   release();
   watch_.reset();
   refine_history();
-  now_.ellipse.settle();
-  now_.gyro.settle();
-  now_.ellipsoid.settle();
+  now_.settle();
 }
 
 void Magnetometer::archive(Archive& archive) {
-  archive.tag("magnetometer 3");
+  const bool has_place =
+      archive.tag_either("magnetometer 3", "magnetometer 4", moves_ > 0 || now_.known || is_arriving_);
   answer_.reset();
   archive(parameters_.gyro.gyro, now_, watch_, history_, field_steps_, withdrawn_steps_, readings_, left_out_,
           turn_broken_);
@@ -180,6 +244,13 @@ void Magnetometer::archive(Archive& archive) {
     if (archive.ok() && has_before) before_.emplace(parameters_);
   }
   if (before_) archive(*before_);
+  if (has_place) {
+    archive(is_elsewhere_, moves_, is_arriving_, now_.known);
+    if (before_) archive(before_->known);
+  }
+  if (archive.saving()) return;
+  now_.ellipsoid.set_known(now_.known ? now_.known : parameters_.ellipsoid.known);
+  if (before_) before_->ellipsoid.set_known(before_->known ? before_->known : parameters_.ellipsoid.known);
 }
 
 }  // namespace navcal::calib

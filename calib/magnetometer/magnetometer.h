@@ -32,6 +32,10 @@ namespace navcal::calib {
 /// something new about it), or the same soft iron with another hard iron since the onset. A step is the second,
 /// where its likelihood is much the greater, and where the change came at once. A new summary begins then; the old
 /// one is kept, and goes on should the old field return. Single readings far off are left out.
+///
+/// A vehicle at another place has the same iron in a field of another size and dip. That it is elsewhere is known
+/// from the field that its fixes tell, or taken from readings that disagree as a run begins. Then it learns anew;
+/// until that is accepted, what was accepted at the place before stands, if it makes the field's size here even.
 class Magnetometer {
  public:
   struct Parameters {
@@ -82,6 +86,9 @@ class Magnetometer {
   /// Steps told so far, without those that were withdrawn; and the number of these.
   [[nodiscard]] std::uint32_t field_steps() const { return field_steps_; }
   [[nodiscard]] std::uint32_t withdrawn_steps() const { return withdrawn_steps_; }
+  /// Changes of place so far, and whether the vehicle is at another place than what it learnt before.
+  [[nodiscard]] std::uint32_t moves() const { return moves_; }
+  [[nodiscard]] bool is_elsewhere() const { return is_elsewhere_; }
   [[nodiscard]] std::optional<FieldStep> last_step() const;
   /// Steps, and the segments between them.
   [[nodiscard]] const FieldHistory& history() const { return history_; }
@@ -97,9 +104,12 @@ class Magnetometer {
     EllipseGyro gyro;
     EllipsoidEstimator ellipsoid;
     FieldPredictor predictor;
+    std::optional<KnownField> known;  ///< field of the Earth in which they learn
 
     explicit Estimators(const Parameters& parameters);
     void update(const Reading& reading, const PredictedReading& predicted);
+    void set_known(const std::optional<KnownField>& field);
+    void settle();
     void archive(Archive& archive);
   };
 
@@ -110,7 +120,9 @@ class Magnetometer {
   };
 
   [[nodiscard]] const Answer& answer() const;
-  [[nodiscard]] Answer chosen() const;
+  [[nodiscard]] static Answer chosen(const Estimators& of);
+  /// The readings here have an even size by what was learnt at the place before.
+  [[nodiscard]] bool has_same_iron() const;
   /// A reading that waits until it is known which field it is of.
   struct Waiting {
     Reading reading;
@@ -129,6 +141,9 @@ class Magnetometer {
   /// Compares one field with a step, and does what follows.
   void decide();
   void change_field(const FieldStep& step);
+  [[nodiscard]] bool is_at_another_place() const;
+  void begin_place();
+  void use_waiting();
   struct Comparison;
   [[nodiscard]] Comparison compare() const;
   /// The first of those that wait that is of the new field, by the greatest likelihood.
@@ -152,7 +167,10 @@ class Magnetometer {
 
   Parameters parameters_;
   Estimators now_;
-  std::optional<Estimators> before_;  ///< those of the field before the last step
+  std::optional<Estimators> before_;  ///< those of the field before the last step, or of the place before
+  bool is_elsewhere_ = false;         ///< `before_` is of another place
+  std::uint32_t moves_ = 0;
+  bool is_arriving_ = false;  ///< a run has begun, and its first readings wait
   FieldStepWatch watch_;
   FieldHistory history_;
   std::vector<Waiting> waiting_;             ///< since the sum of surprise last was zero

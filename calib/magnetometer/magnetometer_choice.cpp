@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "calib/magnetometer/magnetometer.h"
 
 namespace navcal::calib {
 
 const Magnetometer::Answer& Magnetometer::answer() const {
-  if (!answer_) answer_ = chosen();
+  if (answer_) return *answer_;
+  answer_ = chosen(now_);
+  if (!is_elsewhere_ || !has_same_iron()) return *answer_;
+  Answer there = chosen(*before_);
+  const bool is_worse = answer_->method == Method::none ||
+                        (there.estimate && there.estimate->heading_std_rad < answer_->estimate->heading_std_rad);
+  if (there.method != Method::none && is_worse) answer_ = std::move(there);
   return *answer_;
 }
 
-Magnetometer::Answer Magnetometer::chosen() const {
+bool Magnetometer::has_same_iron() const {
+  // Of the size: what the field of a place varies by, and what the iron must have taken away.
+  constexpr double kEven = 0.02, kShareLeft = 0.7;
+  const EllipsoidShape& shape = before_->predictor.shape();
+  const EllipsoidCells cells = now_.ellipsoid.cells();
+  const auto relative = [&](const Eigen::Matrix3d& matrix, const Eigen::Vector3d& centre_uT) {
+    const SizeSpread size = spread_of(cells, matrix, centre_uT);
+    return size.mean > 0 ? size.std / size.mean : 0;
+  };
+  return relative(shape.matrix_per_uT, shape.centre_uT) <=
+         std::max(kEven, kShareLeft * relative(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()));
+}
+
+Magnetometer::Answer Magnetometer::chosen(const Estimators& of) {
   Answer best;
   double least = std::numeric_limits<double>::infinity();  // of those that accept; of all while none does
   const auto consider = [&](Method method, const auto& estimator) {
@@ -25,15 +46,15 @@ Magnetometer::Answer Magnetometer::chosen() const {
   };
   // The ellipsoid comes first because it alone determines the vertical offset. Without that, every tilt causes
   // an error of heading.
-  consider(Method::ellipsoid, now_.ellipsoid);
+  consider(Method::ellipsoid, of.ellipsoid);
   if (best.method != Method::none) return best;
-  consider(Method::ellipse, now_.ellipse);
-  consider(Method::gyro_aided, now_.gyro);
-  if (!best.estimate) best.judgement = now_.ellipse.judgement();
+  consider(Method::ellipse, of.ellipse);
+  consider(Method::gyro_aided, of.gyro);
+  if (!best.estimate) best.judgement = of.ellipse.judgement();
   // Where the hull does not stay level, what the level fits miss is not what stands against them.
   constexpr double kLevel_rad = 0.17;
-  if (best.method == Method::none && now_.ellipsoid.fit() && now_.ellipsoid.tilt_seen_rad() > kLevel_rad)
-    best = {Method::none, now_.ellipsoid.estimate(), now_.ellipsoid.judgement()};
+  if (best.method == Method::none && of.ellipsoid.fit() && of.ellipsoid.tilt_seen_rad() > kLevel_rad)
+    best = {Method::none, of.ellipsoid.estimate(), of.ellipsoid.judgement()};
   return best;
 }
 

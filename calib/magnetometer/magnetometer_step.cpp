@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "calib/magnetometer/field_cells.h"
 #include "calib/magnetometer/magnetometer.h"
@@ -265,7 +266,23 @@ bool Magnetometer::is_field_before() const {
   return sum < kFits * static_cast<double>(waiting_.size()) && 2 * known > waiting_.size();
 }
 
+void Magnetometer::use_waiting() {
+  watch_.reset();
+  past_.clear();
+  turn_broken_ = true;
+  for (const Waiting& waiting : waiting_) use(waiting);
+  waiting_.clear();
+  next_decision_ = 0;
+}
+
 void Magnetometer::change_field(const FieldStep& found) {
+  if (is_elsewhere_ && is_field_before()) {  // back at the place before
+    history_.begin_place();
+    now_ = *std::exchange(before_, std::nullopt);
+    is_elsewhere_ = false;
+    ++moves_;
+    return use_waiting();
+  }
   FieldStep step = found;
   const auto last = last_step();
   // The fit of a field that was seen from one side only does not tell whether a reading is of it.
@@ -280,13 +297,9 @@ void Magnetometer::change_field(const FieldStep& found) {
   Estimators next = step.returned ? *before_ : Estimators(parameters_);
   before_ = now_;
   now_ = std::move(next);
+  is_elsewhere_ = false;
   ++field_steps_;
-  watch_.reset();
-  past_.clear();
-  turn_broken_ = true;
-  for (const Waiting& waiting : waiting_) use(waiting);
-  waiting_.clear();
-  next_decision_ = 0;
+  use_waiting();
 }
 
 }  // namespace navcal::calib

@@ -285,6 +285,7 @@ void Suite::archive(Archive& archive) {
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].left);
   archive(rose_, told_steps_, followed_steps_, followed_withdrawn_, learnt_steps_, moved_);
   if (!archive.saving()) {
+    followed_moves_ = estimators_.magnetometer().moves();
     // A state that is older than a calibrator does not contain it, so that calibrator starts anew.
     for (const Calibrator calibrator : all.subspan(kNamedCalibrators)) {
       estimators_.unit(calibrator).start();

@@ -29,6 +29,11 @@ bool is_known(const IronShift& shift) {
 void Suite::follow_field() {
   constexpr double kLeastMove_uT = 0.05;
   constexpr Calibrator kIron = Calibrator::magnetometer;
+  if (const auto moves = estimators_.magnetometer().moves(); moves != std::exchange(followed_moves_, moves)) {
+    FieldStep move;
+    move.returned = !estimators_.magnetometer().is_elsewhere();
+    change_field(&move);
+  }
   const FieldHistory& history = estimators_.magnetometer().history();
   const std::uint32_t steps = estimators_.magnetometer().field_steps();
   const std::uint32_t withdrawn = estimators_.magnetometer().withdrawn_steps();
@@ -97,7 +102,7 @@ void Suite::change_field(const FieldStep* step) {
 }
 
 void Suite::forget_field() {
-  followed_steps_ = followed_withdrawn_ = told_steps_ = learnt_steps_ = 0;
+  followed_steps_ = followed_withdrawn_ = told_steps_ = learnt_steps_ = followed_moves_ = 0;
   moved_ = {};
 }
 

@@ -204,6 +204,64 @@ TEST(Magnetometer, ASlowDriftIsNoStep) {
   EXPECT_EQ(magnetometer.field_steps(), 0u);
 }
 
+/// The same iron where the Earth's field is `share` of its size.
+void feed_at(Magnetometer& magnetometer, double begin_s, double share, const std::vector<FieldReading>& readings) {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    Magnetometer::Reading reading;
+    reading.field_body_uT = kBefore + share * (readings[i].field_body_uT - kBefore);
+    reading.roll_rad = readings[i].roll_rad;
+    reading.pitch_rad = readings[i].pitch_rad;
+    reading.time_s = begin_s + 0.1 * static_cast<double>(i);
+    magnetometer.update(reading);
+  }
+}
+
+TEST(Magnetometer, AnotherPlaceIsNoStepAndWhatWasAcceptedStands) {
+  Random random(11);
+  Magnetometer magnetometer{Magnetometer::Parameters{}};
+  feed_at(magnetometer, 0, 1, turning(600, 0, kBefore, random));
+  ASSERT_TRUE(magnetometer.judgement().accepted) << magnetometer.judgement().reason;
+  feed_at(magnetometer, 3700, 0.6, turning(60, 600, kBefore, random));
+  EXPECT_EQ(magnetometer.field_steps(), 0U);
+  EXPECT_EQ(magnetometer.moves(), 1U);
+  EXPECT_TRUE(magnetometer.is_elsewhere());
+  EXPECT_TRUE(magnetometer.judgement().accepted) << magnetometer.judgement().reason;
+  EXPECT_LT((magnetometer.estimate()->correction.offset_uT - kBefore).head<2>().norm(), 0.2);
+  // Other iron than before: what was accepted stands no longer.
+  feed_at(magnetometer, 7400, 0.6, turning(40, 660, kBefore + Eigen::Vector3d(12, -9, 0), random));
+  EXPECT_FALSE(magnetometer.judgement().accepted);
+}
+
+TEST(Magnetometer, AnotherRunAtTheSamePlaceGoesOn) {
+  Random random(12);
+  Magnetometer magnetometer{Magnetometer::Parameters{}};
+  for (int run = 0; run < 5; ++run)
+    feed_at(magnetometer, 3700.0 * run, 1, turning(200, 200 * run, kBefore, random));
+  EXPECT_EQ(magnetometer.field_steps(), 0U);
+  EXPECT_EQ(magnetometer.moves(), 0U);
+  EXPECT_TRUE(magnetometer.judgement().accepted) << magnetometer.judgement().reason;
+}
+
+TEST(Magnetometer, AFixAtAnotherPlaceBeginsAnew) {
+  Random random(13);
+  Magnetometer magnetometer{Magnetometer::Parameters{}};
+  magnetometer.set_known_field(KnownField{48, 1.16});
+  feed_at(magnetometer, 0, 1, turning(600, 0, kBefore, random));
+  magnetometer.set_known_field(KnownField{48.2, 1.16});
+  EXPECT_EQ(magnetometer.moves(), 0U);
+  magnetometer.set_known_field(KnownField{30, 1.16});
+  EXPECT_EQ(magnetometer.moves(), 1U);
+  EXPECT_TRUE(magnetometer.judgement().accepted) << magnetometer.judgement().reason;
+  const std::string before = saved(magnetometer);
+  Magnetometer again{Magnetometer::Parameters{}};
+  Archive archive(before);
+  archive(again);
+  EXPECT_TRUE(archive.ok());
+  EXPECT_EQ(saved(again), before);
+  EXPECT_TRUE(again.is_elsewhere());
+  EXPECT_EQ(again.estimate()->correction.offset_uT, magnetometer.estimate()->correction.offset_uT);
+}
+
 TEST(Magnetometer, RestoredGoesOnBitForBit) {
   Random random(4);
   const auto first = turning(500, 0, kBefore, random), second = turning(300, 500, kAfter, random);
