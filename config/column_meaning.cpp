@@ -5,57 +5,26 @@
 #include <array>
 #include <numbers>
 
+#include "base/text_rows.h"
+
 namespace navcal::config {
+
+const char* column_meaning_rows();  // column_meanings.txt: "name meaning SAMPLE"
+
 namespace {
 
 using protocols::described::Dimension;
 using protocols::described::Meaning;
 
-constexpr auto kMeanings = [] {
-  using enum Meaning;
-  return std::array<ColumnMeaning, 40>{{
-      {"heading", heading, "COMPASS"},
-      {"pitch", pitch, "COMPASS"},
-      {"roll", roll, "COMPASS"},
-      {"compass_temperature", temperature, "COMPASS"},
-      {"field_x", field_x, "COMPASS"},
-      {"field_y", field_y, "COMPASS"},
-      {"field_z", field_z, "COMPASS"},
-      {"rate_x", rate_x, "IMU"},
-      {"rate_y", rate_y, "IMU"},
-      {"rate_z", rate_z, "IMU"},
-      {"rate_yaw_b", rate_yaw_b, "IMU"},
-      {"imu_depth", depth, "IMU"},
-      {"force_x", specific_force_x, "IMU"},
-      {"force_y", specific_force_y, "IMU"},
-      {"force_z", specific_force_z, "IMU"},
-      {"lat", latitude, "GPS"},
-      {"lon", longitude, "GPS"},
-      {"height", height, "GPS"},
-      {"height_msl", height_msl, "GPS"},
-      {"speed", speed, "GPS"},
-      {"course", course, "GPS"},
-      {"climb", climb, "GPS"},
-      {"depth", depth, "DEPTH"},
-      {"pressure", pressure, "DEPTH"},
-      {"altitude", altitude, "ALTIMETER"},
-      {"bottom_velocity_x", bottom_velocity_x, "DVL"},
-      {"bottom_velocity_y", bottom_velocity_y, "DVL"},
-      {"bottom_velocity_z", bottom_velocity_z, "DVL"},
-      {"water_velocity_x", water_velocity_x, "DVL"},
-      {"water_velocity_y", water_velocity_y, "DVL"},
-      {"water_velocity_z", water_velocity_z, "DVL"},
-      {"rpm", rpm, "MOTOR"},
-      {"rpm_commanded", rpm_commanded, "MOTOR"},
-      {"fin_1", fin_1, "MOTOR"},
-      {"fin_2", fin_2, "MOTOR"},
-      {"fin_3", fin_3, "MOTOR"},
-      {"motor_current", motor_current, "MOTOR"},
-      {"voltage", voltage, "POWER"},
-      {"current", current, "POWER"},
-      {"sensor", sensor, "SENSOR"},
-  }};
-}();
+std::vector<ColumnMeaning> read_meanings() {
+  std::vector<ColumnMeaning> meanings;
+  for (const auto& [name, rest] : base::text_rows(column_meaning_rows(), " ")) {
+    const std::size_t space = rest.find(' ');
+    meanings.push_back(
+        {name, protocols::described::meaning_named(rest.substr(0, space)).value(), rest.substr(space + 1)});
+  }
+  return meanings;
+}
 
 /// Degrees in a place, which is in degrees in a sample's text.
 constexpr std::array kPlaceUnits{ColumnUnit{"deg", Dimension::angle},
@@ -88,17 +57,21 @@ std::vector<ColumnUnit> units_of(Meaning quantity) {
 
 }  // namespace
 
-std::span<const ColumnMeaning> column_meanings() { return kMeanings; }
+std::span<const ColumnMeaning> column_meanings() {
+  static const std::vector<ColumnMeaning> kMeanings = read_meanings();
+  return kMeanings;
+}
 
 const ColumnMeaning* column_meaning_named(std::string_view name) {
-  for (const ColumnMeaning& row : kMeanings) {
+  const auto meanings = column_meanings();
+  for (const ColumnMeaning& row : meanings) {
     if (row.name == name) return &row;
   }
   const auto quantity = protocols::described::meaning_named(name);
   if (!quantity || quantity == Meaning::temperature)
     return nullptr;  // of which instrument, only the map's own name says
-  const auto* const found = std::ranges::find(kMeanings, quantity, &ColumnMeaning::quantity);
-  return found == kMeanings.end() ? nullptr : found;
+  const auto found = std::ranges::find(meanings, quantity, &ColumnMeaning::quantity);
+  return found == meanings.end() ? nullptr : &*found;
 }
 
 std::optional<ColumnUnit> column_unit(Meaning quantity, std::string_view name) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "base/enum_name.h"
 #include "base/local_plane.h"
 #include "pipeline/calib_reading.h"
 #include "pipeline/calibration_options.h"
@@ -19,6 +20,11 @@ using protocols::Protocol;
 constexpr std::int64_t kCurrentValid_ns = 1'000'000'000;
 
 }  // namespace
+
+std::string_view name_of(CalibrationChange::Cause cause) {
+  return base::enum_name<CalibrationChange::Cause::start>(
+      cause, {"begin", "automatic", "accept", "force", "rollback", "start"});
+}
 
 std::unique_ptr<CalibrationStage> CalibrationStage::make(const config::Settings& settings) {
   if (!settings.calibration.enabled) return nullptr;
