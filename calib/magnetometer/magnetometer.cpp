@@ -249,6 +249,7 @@ void Magnetometer::archive(Archive& archive) {
     if (before_) archive(before_->known);
   }
   if (archive.saving()) return;
+  is_elsewhere_ = is_elsewhere_ && before_;  // a damaged state may say otherwise
   now_.ellipsoid.set_known(now_.known ? now_.known : parameters_.ellipsoid.known);
   if (before_) before_->ellipsoid.set_known(before_->known ? before_->known : parameters_.ellipsoid.known);
 }
