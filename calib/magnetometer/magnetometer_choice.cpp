@@ -19,7 +19,7 @@ const Magnetometer::Answer& Magnetometer::answer() const {
 }
 
 bool Magnetometer::has_same_iron() const {
-  // Of the size: what the field of a place varies by, and what the iron must have taken away.
+  // Relative scatter of the size that a place has anyway, and the share of the raw one that may be left.
   constexpr double kEven = 0.02, kShareLeft = 0.7;
   const EllipsoidShape& shape = before_->predictor.shape();
   const EllipsoidCells cells = now_.ellipsoid.cells();

@@ -76,7 +76,7 @@ struct NuisanceDescription {
   return calibration[static_cast<Eigen::Index>(nuisance)];
 }
 
-/// Of the water: north, east, 0; m/s.
+/// Velocity of the water: north, east, 0; m/s.
 [[nodiscard]] inline Eigen::Vector3d current_of(const Calibration& calibration) {
   return {get(calibration, Nuisance::current_north), get(calibration, Nuisance::current_east), 0};
 }
