@@ -141,9 +141,8 @@ void keep_memory_small() {
 }
 
 Exit run(const navcal::config::Settings& settings, const std::filesystem::path& note) {
-  // One thread runs the context and all that belongs to it (the disk's thread knows none of it): no locks are
-  // needed.
-  asio::io_context context(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
+  // One thread runs the context. Others (ControlServer's) hand their answers to it: its queue needs its lock.
+  asio::io_context context(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO);
   // Signals are caught before the daemon can be reached, so that an early one does not kill it.
   asio::signal_set signals(context, SIGTERM, SIGINT, SIGHUP);
   Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()),

@@ -20,6 +20,7 @@ TICK_S = 0.01
 LEAD_S = 0.3  # so long before a fault its driver is started
 STANDS_S = 0.7  # the case is over when the shaft has stood so long
 LONGEST_S = 60  # and what the machine needs
+LAST_WORDS = 20  # lines of navcald's that a shaft turning for ever is told with
 GIVEN_UP = (2, 3)  # RestartPreventExitStatus of the unit
 
 
@@ -74,6 +75,7 @@ class Case:
             top = now
             if self.promise.look(now, self.card.rpm != 0):
                 self.say(f"the shaft turns with {self.card.rpm} and nobody will stop it")
+                self.say_last_words()
                 return True
             if self.card.rpm or self.events or self.promise.outages or not self.is_over:
                 stood_at = now
@@ -88,6 +90,14 @@ class Case:
 
     def say(self, words):
         self.timeline.append(f"{time.monotonic() - self.begin:7.3f} s  {words}")
+
+    def say_last_words(self):
+        """What is found out about navcald after the case, whose folder goes with it."""
+        with open(f"{self.folder}/navcald.out", errors="replace") as f:
+            self.timeline += [f"  navcald: {line.rstrip()}" for line in f.readlines()[-LAST_WORDS:]]
+        if self.pid:
+            with open(f"/proc/{self.pid}/status") as f:
+                self.timeline += [f"  navcald: {line.rstrip()}" for line in f if line.startswith(("State", "Threads"))]
 
     def plan_faults(self):
         at_s = 0.0

@@ -403,6 +403,21 @@ TEST_F(MotorProcess, AStopDoesNotWaitForALeaseAndEndsOneThatWasAskedForBefore) {
   EXPECT_TRUE(card_.serve_until_told(kSafe));
 }
 
+TEST_F(MotorProcess, ThousandsOfLeasesAtOnceAreAllAnswered) {
+  // Each is answered by another thread than the loop's.
+  constexpr int kControllers = 12, kLeases = 400;
+  std::vector<std::future<int>> controllers;
+  for (int i = 0; i < kControllers; ++i)
+    controllers.push_back(std::async(std::launch::async, [this] {
+      Controller controller(daemon_);
+      int answers = 0;
+      while (answers < kLeases && controller.lease("one of many", 1, kLong_s).contains("ok")) ++answers;
+      return answers;
+    }));
+  for (auto& controller : controllers) EXPECT_EQ(controller.get(), kLeases);
+  EXPECT_EQ(stop(), 0);
+}
+
 TEST_F(MotorProcess, IdleConnectionsLockNobodyOut) {
   Controller pilot(daemon_);
   ASSERT_EQ(pilot.lease("pilot", 1, kLong_s)["ok"], true);
