@@ -122,12 +122,6 @@ void add_audit(CLI::App& app) {
              "the findings as one JSON object; - is standard output, without text");
   add_valued(command, "--report", "FILE.html", arguments->report,
              "page to write, with pictures; needs no other file");
-  command->footer(
-      "Needs no configuration. A finding is judged on parts of the log that it was not fitted to. Ctrl-C ends "
-      "the\n"
-      "reading; what was read is judged. docs/audit.md describes the findings and the JSON keys.\n\n"
-      "Example: navcal audit --report dive.html 00000042.BIN\n"
-      "         navcal audit before.BIN after.BIN");
   command->callback([arguments] { audit(*arguments); });
 }
 

@@ -109,7 +109,6 @@ void add_calibrate(CLI::App& app) {
   add_valued(command, "--parameters", "FILE.param", options->parameters,
              "parameters of ArduPilot (COMPASS_OFS_X ...) to write: its compass then corrects as this "
              "calibration. Of a PX4, or as FILE.params, CAL_MAG0_XOFF ... in QGroundControl's format");
-  command->footer("Example: navcal calibrate --report dive.html dive.mcap");
   command->callback([options] {
     if (options->json && options->files.front() == "-")
       options->files.erase(options->files.begin());  // as elsewhere

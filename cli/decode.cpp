@@ -222,12 +222,6 @@ void add_decode(CLI::App& app) {
       ->add_option("FILE", arguments->file,
                    "Bytes as the device sent them (- is standard input), or with --port a capture or log")
       ->required();
-  command->footer(
-      "Examples:\n"
-      "  navcal decode --protocol oncore gps.bin\n"
-      "  navcal decode --port compass --json dive.cap\n"
-      "  navcal decode --device imu.toml imu.bin\n"
-      "  navcal decode --protocol nmea --json - < /dev/ttyUSB0 | jq .heading_deg");
   command->callback([arguments] {
     if (arguments->protocol.empty() && arguments->port.empty() && arguments->device.empty())
       throw CLI::RequiredError("--protocol, --device or --port");

@@ -131,11 +131,6 @@ void add_check(CLI::App& devices) {
   command->add_option("FILE", arguments->description, "Description of the device (.toml)")->required();
   add_capture(*command, arguments->capture, arguments->port);
   command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
-  command->footer(
-      "Shows frames by kind, bad checksums, skipped bytes and where the first ones are, the range of each field, "
-      "and\n"
-      "warnings about what cannot be. Rates are known of a capture or log only.\n\n"
-      "Example: navcal devices check imu.toml imu.bin");
   command->callback([arguments] { check(*arguments); });
 }
 
@@ -148,11 +143,6 @@ void add_new(CLI::App& devices) {
       ->add_option("-o,--output", arguments->output,
                    "File to be written; one that is there is never written over. Default: standard output")
       ->type_name("FILE.toml");
-  command->footer(
-      "Finds how frames begin and how long they are, their checksum, and numbers that vary. What the numbers mean "
-      "is\n"
-      "for you to fill in.\n\n"
-      "Example: navcal devices new -o imu.toml imu.bin");
   command->callback([arguments] { begin(*arguments); });
 }
 
@@ -161,9 +151,6 @@ void add_new(CLI::App& devices) {
 void add_devices(CLI::App& app) {
   auto* const devices = app.add_subcommand("devices", "Devices of your own, described by a file");
   devices->require_subcommand(1);
-  devices->footer(
-      "A description says how the bytes of a device are to be read, without a change to the programs.\n\n"
-      "Example: navcal devices check imu.toml imu.bin");
   add_check(*devices);
   add_new(*devices);
 }

@@ -142,9 +142,6 @@ void add_fleet_plan(CLI::App& parent) {
   add_number(command, "--bank", gap::kLeastNulls, gap::kMostNulls, request->bank_missions,
              "number of simulated null missions of each bank");
   add_defaulted(command, "--seed", request->bank_seed, "seed of their noise and tolerances");
-  command->footer(
-      "A recording is known by its content: one that was moved or renamed is not done again.\n\n"
-      "Example: navcal fleet plan recordings/ -o plan/ --job gap,calibrate");
   command->callback([request] { with_exit_statuses([&] { make_fleet_plan(*request); }); });
 }
 
@@ -160,11 +157,6 @@ void add_fleet_run(CLI::App& parent) {
   add_valued(command, "--task", "K", options->tasks, "numbers of tasks: 7, or 3,5,7, or 10-20")->required();
   add_number(command, "--threads", 1, 1024, options->threads, "threads of a task; they change no result");
   command->add_flag("--again", options->again, "do tasks once more that failed");
-  command->footer(
-      "The exit status is 0 when each task has a result, 1 when one has none. An error that the recording causes "
-      "is a result.\n\n"
-      "Example: navcal fleet run plan/ --task 17\n"
-      "         seq 200 | parallel navcal fleet run plan/ --task {}");
   command->callback([options] {
     with_exit_statuses([&] { run_fleet_tasks(options->plan, options->tasks, options->again, options->threads); });
   });
@@ -181,13 +173,6 @@ void add_fleet_causes(CLI::App& parent) {
   add_valued(command, "--report", "FILE.html", options->page, "page with pictures; needs no other file");
   command->add_option("--threads", options->threads, "threads; default: one for each core; they change no result")
       ->check(CLI::Range(1, 1024));
-  command->footer(
-      "Results of the job calibrate, where there are any, give the course of each calibration over the "
-      "missions.\n\n"
-      "Example:\n"
-      "  navcal fleet plan recordings/ -o plan/ --job evidence,calibrate\n"
-      "  navcal fleet submit plan/ --local\n"
-      "  navcal fleet causes plan/ --report fleet.html");
   command->callback([options] { with_exit_statuses([&] { tell_causes(*options); }); });
 }
 
@@ -200,9 +185,6 @@ void add_fleet_merge(CLI::App& parent) {
   command->add_option("PLAN", options->plan, "folder of the plan")->required();
   add_valued(command, "-o,--output", "FILE.sqlite", options->output, "the file; default: PLAN/results.sqlite");
   add_valued(command, "--report", "FILE.html", options->page, "page with tables; needs no other file");
-  command->footer(
-      "The same results give the same bytes, in whatever order and wherever the tasks were done.\n\n"
-      "Example: navcal fleet merge plan/ --report fleet.html");
   command->callback(
       [options] { with_exit_statuses([&] { merge_fleet(options->plan, options->output, options->page); }); });
 }
@@ -216,7 +198,6 @@ void add_fleet_list(CLI::App& parent) {
   const auto options = std::make_shared<Options>();
   command->add_option("PLAN", options->plan, "folder of the plan")->required();
   command->add_flag("--json", options->json, "one JSON object a line instead of text");
-  command->footer("Example: navcal fleet list plan/");
   command->callback([options] { with_exit_statuses([&] { list_fleet(options->plan, options->json); }); });
 }
 
@@ -226,7 +207,6 @@ void add_fleet(CLI::App& app) {
   auto* const command = app.add_subcommand(
       "fleet", "many recordings: plan, run on this machine or by Slurm, merge the results into one file");
   command->require_subcommand(1);
-  command->footer("Example: navcal fleet plan recordings/ -o plan/ && navcal fleet submit plan/ --local");
   add_fleet_plan(*command);
   add_fleet_submit(*command);
   add_fleet_run(*command);

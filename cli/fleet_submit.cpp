@@ -143,10 +143,6 @@ void add_fleet_submit(CLI::App& fleet) {
              "navcal as the nodes see it; default: this program")
       ->needs(slurm)
       ->group(by_slurm);
-  command->footer(
-      "Tasks that have a result are not done again. Ctrl-C ends the command, and the same command goes on.\n\n"
-      "Example: navcal fleet submit plan/ --local --jobs 4\n"
-      "         navcal fleet submit plan/ --slurm --sbatch=--time=30 --sbatch=--mem=2G");
   command->callback([options] {
     if (!options->local && !options->slurm) throw CLI::RequiredError("one of --local and --slurm");
     submit(*options);

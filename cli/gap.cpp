@@ -241,11 +241,6 @@ void add_gap(CLI::App& app) {
   add_valued(command, "--effects-out", "FILE.toml", source.effects_file,
              "the effects found, for navcal simulate --effects");
   add_export_options(command, options->exports);
-  command->footer(
-      "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"
-      "Examples:\n"
-      "  navcal gap a.cap b.cap c.cap --holdout d.cap\n"
-      "  navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
   add_gap_next(*command);
   add_gap_watch(*command);
   add_gap_trial(*command);

@@ -96,9 +96,6 @@ void add_gap_next(CLI::App& gap) {
   add_valued(command, "--json", "FILE|-", options->json,
              "the plan as one JSON object; - is standard output, without text");
   add_valued(command, "--report", "FILE.html", options->report, "page with pictures; needs no other file");
-  command->footer(
-      "The exit status is 0 also when no mission within the limits would decide.\n\n"
-      "Example: navcal gap next a.cap --holdout b.cap --minutes 8 --mission-out next.toml --report next.html");
   command->callback([options] {
     if (options->list_limits) {
       std::fputs(config::mission_limits_file({}).c_str(), stdout);

@@ -245,14 +245,6 @@ void add_gap_trial(CLI::App& gap) {
   add_valued(command, "--keep", "DIR", asking.keep,
              "keeps recordings and answers in this folder, one subfolder for each case");
   command->add_option("--program", asking.program, "the program that diagnoses")->group("");
-  command->footer(
-      "Effects are drawn, and a second, independent simulator makes the recordings. The diagnosis is a separate "
-      "process that receives file names only. A case has the same number and truth in a trial of any length: 32 "
-      "cases make a round (16 with --layout), a third of them without an effect. A vehicle with a layout is "
-      "identified from its nominal recordings before its first case.\n\n"
-      "Examples:\n"
-      "  navcal research gap-trial --cases 544 --seed 7 --json trial.json --report trial.html\n"
-      "  navcal research gap-trial --cases 16 --layout /usr/share/navcal/vehicles/bluerov2-heavy.toml");
   command->callback([options] { run(*options); });
 }
 

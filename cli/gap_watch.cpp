@@ -282,13 +282,6 @@ void add_gap_watch(CLI::App& gap) {
   add_defaulted(command, "--seed", options->bank_seed, "seed of their noise and tolerances")->group(bank);
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
-  command->footer(
-      "Prints one JSON object a line: began, then alarm, cause, unknown, skipped or status (docs/gap-watch.md). "
-      "The null\nmissions take a minute before the first line, once for each vehicle. To try it without a "
-      "vehicle:\n"
-      "  navcal simulate --mission survey --effect gyro_scale=1 -o a.cap\n"
-      "  navcal gap watch --recording a.cap\n\n"
-      "Example: navcal gap watch --vehicle vehicle.toml --config /etc/navcal/navcald.toml");
   command->callback([options] { with_exit_statuses([&] { watch_gap(*options); }); });
 }
 

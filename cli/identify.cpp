@@ -84,9 +84,6 @@ void add_identify(CLI::App& app) {
   command->add_flag("--no-advice", options->no_advice, "do not look for manoeuvres that would tell more");
   command->add_flag("--force", options->force,
                     "write the layout even where it is worse on the held-out recordings than the file's numbers");
-  command->footer(
-      "docs/identify.md describes the method, the file and the JSON keys.\n\n"
-      "Example: navcal identify --vehicle datasheet.toml --holdout c.mcap -o vehicle.toml a.mcap b.mcap");
   command->callback([options] { run_identify(*options); });
 }
 

@@ -80,12 +80,6 @@ void add_log_import(CLI::App& log) {
   add_valued(in, "--cache", "DIR", arguments->options.folders,
              "where a Slocum's lists of sensors (.cac) are, if not beside FILE");
   in->add_flag("--json", arguments->json, "one JSON object instead of a table, for a log of another system");
-  in->footer(
-      "docs/import.md describes the formats, and the map of columns and outputs.\n\n"
-      "Example: navcal log import -o survey.mcap survey.cap\n"
-      "         navcal log import -o dive.mcap 00000042.BIN\n"
-      "         navcal log import -o walk.mcap --baud 9600 walk.nmea\n"
-      "         navcal log import --map vehicle.toml -o dive.mcap 00000042.BIN");
   in->callback([arguments] { import_file(*arguments); });
 }
 

@@ -50,9 +50,6 @@ void add_log_surfacings(CLI::App& log) {
   command->add_flag("--json", options->json, "one JSON object instead of a table");
   add_valued(command, "--report", "FILE.html", options->page, "page with the distributions and plots");
   add_valued(command, "--config", "FILE", options->config, "configuration to use instead of the recording's own");
-  command->footer(
-      "docs/surfacing.md describes the table and the JSON keys.\n\n"
-      "Example: navcal log surfacings --report surfacings.html dive.mcap");
   command->callback([options] { with_exit_statuses([&] { show_surfacings(*options); }); });
 }
 

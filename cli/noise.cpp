@@ -59,9 +59,6 @@ void add_noise(CLI::App& app) {
   add_valued(command, "--report", "FILE.html", options->page, "page to write, with pictures; needs no other file");
   add_valued(command, "--write", "FILE.toml", options->write,
              "configuration to write, with the noise in [instruments]; an existing file is not overwritten");
-  command->footer(
-      "docs/noise.md describes the method, the table and the JSON keys.\n\n"
-      "Example: navcal noise --report bench.html --write measured.toml bench.mcap");
   command->callback([options] { find_noise(*options); });
 }
 

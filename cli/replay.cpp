@@ -108,7 +108,6 @@ void add_replay(CLI::App& app) {
       ->required();
   command->add_option("--config", options->config, "configuration to use instead of the recording's own");
   command->add_flag("--json", options->json, "JSON lines (this is the default)");
-  command->footer("Example: navcal replay mission.mcap | grep COMPASS");
   command->callback([options] { replay(*options); });
 }
 

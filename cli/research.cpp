@@ -6,9 +6,6 @@ namespace navcal::cli {
 void add_research(CLI::App& app) {
   auto* const research = app.add_subcommand("research", "trials and benches that judge navcal itself");
   research->require_subcommand(1);
-  research->footer(
-      "Older names stay: navcal gap trial, thesis, validate-runs.\n\n"
-      "Example: navcal research gap-trial --cases 32 --report trial.html");
   add_gap_trial(*research);
   research->get_subcommand("trial")->name("gap-trial");
   add_validate_runs(*research);

@@ -109,11 +109,6 @@ void add_simulate(CLI::App& app) {
   add_valued(command, "--report", "FILE.html", arguments.report, "page with pictures; needs no other file");
   command->add_flag("--list-effects", options->list_effects,
                     "all effects with equation, parameters, typical strength");
-  command->footer(
-      "Without --date, time 0 of the mission is 2026-01-01, 00:00:00 UTC. Without --place and --field, the "
-      "vehicle\n"
-      "is on a lake in Virginia, in a reference field that belongs to no real place: 19.0,0.6,44.0.\n\n"
-      "Example: navcal simulate --mission survey --effect motor_field=1 -o survey.cap --truth survey.csv");
   command->callback([options] { simulate(*options); });
 }
 

@@ -58,9 +58,6 @@ void add_thesis(CLI::App& app) {
       ->add_option("--paths", options->request.folder,
                    "folder with path1.csv to path8.csv at 10 Hz; default: the installed paths")
       ->option_text("DIR");
-  command->footer(
-      "docs/thesis.md describes the page and the JSON keys. At least one of --report and --json must be given.\n\n"
-      "Example: navcal research thesis --report thesis.html --json thesis.json");
   command->callback([options] { recompute_thesis(*options); });
 }
 

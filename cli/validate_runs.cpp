@@ -223,10 +223,6 @@ void add_validate_runs(CLI::App& app) {
   add_valued(command, "--json", "FILE", arguments->json,
              "answers to be written, one JSON object a line; - is standard output")
       ->required();
-  command->footer(
-      "docs/runs.md describes the files, the method, the answers and how far they can be trusted.\n\n"
-      "Example: navcal research validate-runs --nominal normal --runs today --pools pools.json --json "
-      "answers.jsonl");
   command->callback([arguments] { validate_runs(*arguments); });
 }
 

@@ -109,16 +109,6 @@ void add_vehicle_check(CLI::App& vehicle) {
   add_valued(command, "--config", "FILE.toml", arguments->config,
              "Configuration of all recordings, instead of their own");
   command->add_flag("--json", arguments->json, "One JSON object");
-  command->footer(
-      "Shows masses, trim, stability, natural periods, terminal speeds, turning circle, glides, and which degrees "
-      "of\n"
-      "freedom the actuators command. Each oddity names the number that shows it and the key to look at. Exit "
-      "status 0\n"
-      "also with oddities; 1 when the layout cannot be simulated, 3 when it cannot be read.\n"
-      "With recordings: whether units, signs and frames of their channels agree with each other, and the motion "
-      "with the\n"
-      "commands. docs/vehicles.md lists what is found.\n\n"
-      "Example: navcal vehicle check remus-100.toml dive.mcap");
   command->callback([arguments] { check_layout(*arguments); });
 }
 
@@ -135,12 +125,6 @@ void add_vehicle_predict(CLI::App& vehicle) {
              "The answer as one JSON object; - is standard output, without text");
   add_valued(command, "--config", "FILE.toml", arguments->config,
              "Configuration of all recordings, instead of their own");
-  command->footer(
-      "From the measured state every few seconds, the recorded commands move the layout's vehicle for 1, 10 and "
-      "60 s.\n"
-      "Beside its errors stand those of standing still, of holding the velocity, and of a linear and a quadratic\n"
-      "regression. A layout that is worse than these is no use. docs/vehicles.md says how to read the table.\n\n"
-      "Example: navcal vehicle predict vehicle.toml zigzag.mcap --fit turning.mcap");
   command->callback([arguments] { predict_vehicle(*arguments); });
 }
 
@@ -152,9 +136,6 @@ void add_vehicle_convert(CLI::App& vehicle) {
       ->required();
   command->add_option("-o,--output", arguments->output, "Layout to be written. Default: standard output")
       ->type_name("LAYOUT.toml");
-  command->footer(
-      "The layout moves as the vehicle does.\n\n"
-      "Example: navcal vehicle convert vehicle.toml -o layout.toml");
   command->callback([arguments] { convert_vehicle(*arguments); });
 }
 
@@ -163,9 +144,6 @@ void add_vehicle_convert(CLI::App& vehicle) {
 void add_vehicle(CLI::App& app) {
   auto* const vehicle = app.add_subcommand("vehicle", "Layouts: vehicles of any shape, described by a file");
   vehicle->require_subcommand(1);
-  vehicle->footer(
-      "A layout states masses, damping and any number of thrusters, surfaces, ballasts and moving masses.\n\n"
-      "Example: navcal vehicle check remus-100.toml");
   add_vehicle_check(*vehicle);
   add_vehicle_predict(*vehicle);
   add_vehicle_convert(*vehicle);

@@ -93,11 +93,6 @@ void add_view(CLI::App& app) {
   add_number(command, "--speed", 0.001, 1e6, arguments->speed,
              "factor of the speed over the recorded one; the page changes it");
   command->add_flag("--no-open", arguments->no_open, "print the address and open no browser");
-  command->footer(
-      "The page of navcal-web with a time bar; only this machine reaches it. It plays from when the page is "
-      "open,\n"
-      "until Ctrl-C. What is not a log becomes one in a temporary folder first.\n\n"
-      "Example: navcal view dive.mcap --speed 10");
   command->callback([arguments] { view(*arguments); });
 }
 

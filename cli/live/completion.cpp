@@ -79,9 +79,6 @@ void add_completion(CLI::App& app) {
   auto* command = app.add_subcommand("completion", "a script that completes navcal's commands in a shell");
   const auto shell = std::make_shared<std::string>();
   command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
-  command->footer(
-      "Example: navcal completion bash | sudo tee /usr/share/bash-completion/completions/navcal\n"
-      "         echo 'source <(navcal completion zsh)' >> ~/.zshrc");
   command->callback([&app, shell] {
     const bool zsh = *shell == "zsh";
     // zsh runs what is written for bash. The first line makes it a file for zsh's own folders of completions.

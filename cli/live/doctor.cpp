@@ -66,13 +66,6 @@ void add_doctor(CLI::App& app) {
   command->add_flag(
       "--fix", arguments->fix,
       "let the service write to a log folder on another file system: as root, a drop-in of its unit");
-  command->footer(
-      "Looks at the configuration, at each port (there, permitted, held by another program, latency of its "
-      "adapter),\n"
-      "the status socket, the log folder with its speed, the clock and limits. Root checks the rights of the "
-      "service's\n"
-      "user. The exit status is 1 if there is a fault; warnings leave it 0.\n\n"
-      "Example: sudo navcal doctor");
   command->callback([arguments] { run(*arguments); });
 }
 

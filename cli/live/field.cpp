@@ -57,11 +57,6 @@ void add_field(CLI::App& app) {
       ->required();
   add_valued(command, "--date", "YYYY-MM-DD", options->where.date, "date; default: today");
   command->add_flag("--json", options->json, "one JSON object instead of lines for the configuration");
-  command->footer(
-      "World Magnetic Model 2025. The model does not contain rock, harbours and ships: in a harbour a compass may "
-      "see\n"
-      "several degrees more.\n\n"
-      "Example: navcal field --place 59.33,18.07 --date 2026-06-01");
   command->callback([options] { show_field(*options); });
 }
 

@@ -60,18 +60,15 @@ void add_log(CLI::App& app) {
   auto* const log = app.add_subcommand(
       "log", "information on a log; finish, export or import; list, fetch, start, stop; surfacings");
   log->require_subcommand(1);
-  log->footer("Example: navcal log info navcal-20261121T023000Z-000123.mcap");
 
   auto* const info =
       log->add_subcommand("info", "ports, duration, messages, gaps, events and damage of a log or capture");
   info->add_option("FILE", options->file, "log (.mcap) or capture (.cap)")->required();
   info->add_flag("--json", options->json, "one JSON object instead of text");
-  info->footer("Example: navcal log info --json dive.mcap");
   info->callback([options] { show_info(options->file, options->json); });
 
   auto* const end = log->add_subcommand("finish", "write the index of an unfinished log; it becomes read-only");
   end->add_option("FILE", options->file, "log (.mcap)")->required();
-  end->footer("Example: navcal log finish dive.mcap");
   end->callback([options] { finish(options->file); });
 
   auto* const out = log->add_subcommand("export", "export topics as tables, or the raw bytes as a capture");
@@ -104,9 +101,6 @@ void add_log(CLI::App& app) {
     for (auto* const other : forms) option->excludes(other);
     forms.push_back(option);
   }
-  out->footer(
-      "docs/export.md describes the columns of the tables.\n\nExample: navcal log export --csv dive/ dive.mcap\n"
-      "         navcal log export --netcdf dive.nc dive.mcap");
   out->callback([options] {
     if (options->exporter == nullptr)
       throw CLI::RequiredError("one of --csv, --netcdf, --mat, --ros2, --ros2-ned and --cap");

@@ -88,11 +88,9 @@ void select_log(const LogControlOptions& options) {
     fmt::print("{}\n", base::printable(left_out.get<std::string>()));
 }
 
-CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name, const char* description,
-                      const char* example) {
+CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name, const char* description) {
   auto* const command = log.add_subcommand(name, description);
   add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control, "navcald's control socket");
-  command->footer(std::string("Example: ") + example);
   return command;
 }
 
@@ -100,29 +98,24 @@ CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name
 
 void add_log_control(CLI::App& log) {
   const auto options = std::make_shared<LogControlOptions>();
-  auto* const list = add_command(log, options, "list", "the logs of a running navcald: name, bytes, begin, end",
-                                 "navcal log list");
+  auto* const list = add_command(log, options, "list", "the logs of a running navcald: name, bytes, begin, end");
   list->add_flag("--json", options->json, "one JSON array instead of text");
   list->callback([options] { show_logs(*options); });
 
-  auto* const fetch = add_command(log, options, "fetch", "downloads finished logs from a running navcald",
-                                  "navcal log fetch --to dives");
+  auto* const fetch = add_command(log, options, "fetch", "downloads finished logs from a running navcald");
   add_valued(fetch, "FILE", "NAME", options->files,
              "names of logs; without any, all that are finished and not there yet");
   add_valued(fetch, "--to", "DIR", options->to, "folder for the logs")->required();
-  fetch->footer(
-      "NAME.part grows in the folder, and the same command continues it after an interruption. Checksums are\n"
-      "compared, and a file that is there is never overwritten.\n\nExample: navcal log fetch --to dives");
   fetch->callback([options] { fetch_logs(*options); });
 
-  add_command(log, options, "start", "begins a new log file after navcal log stop", "navcal log start")
-      ->callback([options] { order_log(*options, "log.start"); });
+  add_command(log, options, "start", "begins a new log file after navcal log stop")->callback([options] {
+    order_log(*options, "log.start");
+  });
   add_command(log, options, "stop",
-              "ends the log file; navcald runs on without a log until log start or a restart", "navcal log stop")
+              "ends the log file; navcald runs on without a log until log start or a restart")
       ->callback([options] { order_log(*options, "log.stop"); });
 
-  auto* const select = add_command(log, options, "select", "what the log of a running navcald leaves out",
-                                   "navcal log select --leave-out raw.gps --leave-out navigation");
+  auto* const select = add_command(log, options, "select", "what the log of a running navcald leaves out");
   auto* const leave_out =
       select->add_option("--leave-out", options->leave_out,
                          "samples, navigation, health, calibration, commands, raw or raw.PORT; may be repeated");

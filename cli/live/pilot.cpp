@@ -176,12 +176,6 @@ void add_pilot(CLI::App& app) {
              "at most, for the instruments and for true north, before the mission begins")
       ->check(CLI::Range(0.1, 3600.0));
   add_limits(command, *options);
-  command->footer(
-      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply or battery, near the "
-      "sea floor,\nwhen a lease is lost, and on Ctrl-C: the shaft is off, the fins steer to the surface for 5 s "
-      "and are neutral after that.\n"
-      "docs/pilot.md shows how to try it without water.\n\n"
-      "Example: navcal pilot survey --control /run/navcal/control --max-depth 5");
   command->callback([options] { run_pilot(*options); });
 }
 

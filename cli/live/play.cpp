@@ -50,10 +50,6 @@ void add_play(CLI::App& app) {
   add_number(command, "--wait", 0.0, 86400.0, arguments->wait_s,
              "seconds to wait, after `ready`, until every port has been opened, so that nothing of the\n"
              "beginning is missed; then it starts anyway. 0 starts at once");
-  command->footer(
-      "Like a real line it waits for no reader: unread bytes are lost, and counted at the end. Bytes sent to\n"
-      "the devices are not played. Each read is one piece, as it was recorded.\n\n"
-      "Example: navcal play dive.cap --dir /tmp/ports & navcald --config navcald.toml");
   command->callback([arguments] { run(*arguments); });
 }
 

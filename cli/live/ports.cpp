@@ -85,7 +85,6 @@ void add_ports_command(CLI::App* ports) {
   command->add_flag("--force", options->force,
                     "also a command that stops data or makes the device forget something");
   add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control, "navcald's control socket");
-  command->footer("The device's answer is printed.\n\nExample: navcal ports command gps receiver_id");
   command->callback([options] { run_command(*options); });
 }
 
@@ -136,10 +135,6 @@ void add_ports(CLI::App& app) {
   auto* command = app.add_subcommand("ports", "serial ports of this machine and their properties");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "one JSON object a line; unknown values are null");
-  command->footer(
-      "A port can be configured by its path or, better, by the serial number of its USB adapter (usb_serial), "
-      "which\n"
-      "is the same at any USB socket.\n\nExample: navcal ports");
   add_ports_command(command);
   add_ports_send_calibration(*command);
   command->callback([command, json] {

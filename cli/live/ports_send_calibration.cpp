@@ -266,11 +266,6 @@ void add_ports_send_calibration(CLI::App& ports) {
       ->required();
   add_number(command, "--baud", 300, 4'000'000, options->baud, "speed of a serial port");
   command->add_flag("--yes", options->yes, "write without asking");
-  command->footer(
-      "Shows what changes and asks. Never writes while the vehicle is armed. The values of before go into a new "
-      "file of\n"
-      "this folder, which the same command sends back.\n\n"
-      "Example: navcal ports send-calibration udp:0.0.0.0:14552 --parameters compass.param");
   command->callback([options] { send_calibration(*options); });
 }
 

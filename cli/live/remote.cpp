@@ -197,11 +197,6 @@ void add_remote(CLI::App& app) {
   command->add_flag("--json", options->json, "prints reports and answers as lines of JSON");
   add_valued(command, "--seconds", "SECONDS [0]", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
-  command->footer(
-      "Typed commands: lease; order RPM A B C; stop; release; status; send {JSON}; quit. Ctrl-C, and closing the "
-      "terminal,\ngive the lease back: the vehicle orders its safe state. docs/remote.md tells what a dead link "
-      "does.\n\n"
-      "Example: navcal remote /dev/ttyUSB0 --key-file ~/.navcal-key");
   command->callback([options] {
     const bool needs_argument = options->action == "send" || options->action == "get";
     if (needs_argument == options->argument.empty())

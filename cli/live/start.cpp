@@ -258,13 +258,6 @@ void add_start(CLI::App& app) {
       ->take_all();
   add_number(command, "--port", 1, 65535, request.status_port, "navcald's status port");
   add_number(command, "--seconds", 1.0, 3600.0, options->seconds, "time of listening to what arrives");
-  command->footer(
-      "Writes a configuration, checks it, runs navcald, and says what arrives, at which rate and with which "
-      "times; what\n"
-      "does not, and what to do. Then navcald and the page run until Ctrl-C. Log and control socket lie beside "
-      "the\n"
-      "configuration. With --output /etc/navcal/navcald.toml it ends with the lines that start the service.\n\n"
-      "Example: navcal start --for bluerov2");
   command->callback([options] { start(*options); });
 }
 

@@ -119,9 +119,6 @@ void add_watch(CLI::App& app) {
   command->add_flag("--json", options->json, "print the stream unchanged");
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
-  command->footer(
-      "Example: navcal watch --host vehicle.local\n"
-      "Without a terminal it writes one line a second; it connects again when the daemon returns.");
   command->callback([options] { watch(*options); });
 }
 
