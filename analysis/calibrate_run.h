@@ -49,6 +49,8 @@ class CalibrateRun {
   [[nodiscard]] bool has_corrected_fields() const { return has_corrected_fields_; }
   /// One of the recordings was imported from a log of PX4.
   [[nodiscard]] bool is_of_px4() const { return is_of_px4_; }
+  /// As it is known at the end.
+  [[nodiscard]] const pipeline::EarthField& earth_field() const { return pipeline_->earth_field(); }
   /// The port whose field serves; empty: none.
   [[nodiscard]] std::string field_port() const;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "analysis/calibrate_run.h"
+#include "analysis/next_use.h"
 #include "api/guard.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
@@ -82,11 +82,13 @@ Calibration calibrate(const std::vector<std::filesystem::path>& files, const Cal
     const auto settings =
         options.config.empty() ? record::Recording::open(files.front())->settings() : config::load(options.config);
     analysis::CalibrateRun run(settings, nullptr);
+    std::vector<std::string> names;
     for (const auto& file : files) {
-      const std::string name = file.string();
+      const std::string& name = names.emplace_back(file.string());
       run.play(name, [&](double share) { relay(name, share); });
     }
-    const calib::Report report = run.finish();
+    calib::Report report = run.finish();
+    analysis::add_next_use(report, run, names, {}, [&](double share) { relay("each part alone", share); });
     return calibration_of(report, run);
   });
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,9 +32,10 @@ enum class HeldOutQuantity : std::uint8_t {
 
 /// One number of an estimate with its standard error. Units as in its name: rad, rad/s, s, uT, or none.
 struct Quantity {
-  std::string_view name;  ///< "scale", "bias_rad_s", "B_rad"
-  double value = 0;       ///< not a number when it is not determined
-  double std = 0;         ///< infinite when it is not known
+  std::string_view name;                                       ///< "scale", "bias_rad_s", "B_rad"
+  double value = 0;                                            ///< not a number when it is not determined
+  double std = 0;                                              ///< infinite when it is not known
+  double next_std = std::numeric_limits<double>::quiet_NaN();  ///< at the next use; not a number: not known
 };
 
 /// A calibrator's assessment of its own estimate.

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/calibrate_run.h"
+#include "analysis/next_use.h"
 #include "base/failure.h"
 #include "base/progress.h"
 #include "cli/live/commands.h"
@@ -72,7 +72,9 @@ void calibrate(const CalibrateCommandOptions& options) {
       if (++outside == options.files.size()) throw;
     }
   }
-  const calib::Report report = run.finish();
+  calib::Report report = run.finish();
+  base::Progress progress("calibrate, each part alone");
+  analysis::add_next_use(report, run, options.files, window, [&progress](double share) { progress.show(share); });
   tell_remarks("navcal", run.remarks());
 
   std::string answer;

@@ -205,7 +205,8 @@ void Daemon::on_calibration(const pipeline::CalibrationChange& change) {
 }
 
 void Daemon::on_field_step(const calib::FieldStep& step, std::int64_t now_ns) {
-  event(now_ns, "warning", "field.step", "", calib::words_of(step));
+  event(now_ns, step.is_place ? "info" : "warning", step.is_place ? "field.place" : "field.step", "",
+        calib::words_of(step));
 }
 
 void Daemon::on_earth_field(const pipeline::EarthField& field) { publisher_.set_earth_field(field); }

@@ -84,12 +84,7 @@ void Navigator::take(const RateReading& reading) {
   // Others may have driven the time beyond the first frames after a pause.
   if (time_ns_ && reading.time_ns <= *time_ns_) return;
   advance(reading.time_ns, follows ? std::optional(mean_rate_rad_s) : std::nullopt);
-  if (reading.depth_m) {
-    // Without a tilt the angles are zero.
-    const double below_m =
-        base::depth_below_origin_m(reading.depth_position_m, attitude_.roll_rad(), attitude_.pitch_rad());
-    depth_.correct(*reading.depth_m - below_m, reading.depth_std_m);
-  }
+  if (reading.depth_m) correct_depth(*reading.depth_m, reading.depth_position_m, reading.depth_std_m);
 }
 
 void Navigator::take(const CompassReading& reading) {

@@ -58,10 +58,18 @@ void Navigator::take(const DepthReading& reading) {
   const bool plausible = std::abs(reading.depth_m) <= kMostGaugeDepth_m;
   if (!is_new(depth_ns_, reading.time_ns, plausible)) return;
   drive(reading.time_ns);
-  const double below_m =
-      base::depth_below_origin_m(reading.position_m, attitude_.roll_rad(), attitude_.pitch_rad());
   const double sunk_m = depth_.sinking_m_s() * base::seconds(*time_ns_ - reading.time_ns);
-  depth_.correct(reading.depth_m - below_m + sunk_m, reading.std_m);
+  correct_depth(reading.depth_m + sunk_m, reading.position_m, reading.std_m);
+}
+
+void Navigator::correct_depth(double gauge_m, const Vector3d& position_m, std::optional<double> std_m) {
+  // Without a tilt the angles are zero.
+  const double depth_m =
+      gauge_m - base::depth_below_origin_m(position_m, attitude_.roll_rad(), attitude_.pitch_rad());
+  // A gauge in the air, or set to zero while the hull floats aslant, does not lift the origin out of the water.
+  const double lifted_m = std::max(0.0, std::min(gauge_m, 0.0) - depth_m);
+  if (lifted_m > 0 && std_m) std_m = std::hypot(*std_m, lifted_m);
+  depth_.correct(depth_m + lifted_m, std_m);
 }
 
 /// Corrects the way since the measurement before: the velocity that was held did not change with time, the true

@@ -83,7 +83,8 @@ void append_estimates(HtmlPage& page, const calib::Report& report) {
     auto quantities = shown(calibrator);
     if (quantities.empty()) quantities.push_back({"no estimate", "", "", ""});
     for (const auto& quantity : quantities) {
-      std::vector<std::string> row{title, quantity.name, quantity.value, quantity.error, quantity.unit};
+      std::vector<std::string> row{title,          quantity.name, quantity.value,
+                                   quantity.error, quantity.next, quantity.unit};
       row.insert(row.end(), facts.begin(), facts.end());
       rows.push_back(std::move(row));
       // A cell that is the same in all rows is written in the first row only.
@@ -92,17 +93,19 @@ void append_estimates(HtmlPage& page, const calib::Report& report) {
     }
   }
   page.section("Estimates");
-  page.table({"Calibrator", "Quantity", "Estimate", "Standard error", "Unit", "Verdict", "Coverage", "Condition",
-              "Readings"},
+  page.table({"Calibrator", "Quantity", "Estimate", "Standard error", "At the next use", "Unit", "Verdict",
+              "Coverage", "Condition", "Readings"},
              rows);
+  if (const std::string next = next_use_of(report); !next.empty()) page.paragraph(next);
 }
 
 void append_field_history(HtmlPage& page, const calib::Report& report) {
   const auto lines = field_history_of(report);
   if (lines.empty()) return;
-  page.paragraph(
-      "The field of the compass stepped during the recording. The calibration is that of the last segment; the "
-      "spread of each segment is about its own hard iron, with common soft iron.");
+  if (!report.steps.empty())
+    page.paragraph(
+        "The field of the compass stepped during the recording. The calibration is that of the last segment; the "
+        "spread of each segment is about its own hard iron, with common soft iron.");
   for (const std::string& line : lines) page.paragraph(line + ".");
 }
 

@@ -76,6 +76,7 @@ std::string calibrate_text(const calib::Report& report, double duration_s) {
   append_field_history(out, report);
   append_rose(out, report.rose);
   out += sentence_of(report.heading) + "\n";
+  if (const std::string next = next_use_of(report); !next.empty()) out += next + "\n";
   const auto lacks = [&](calib::Calibrator calibrator) { return report.find(calibrator) == nullptr; };
   if (lacks(calib::Calibrator::gyro))
     out += "No gyro in the recording (a port of protocol imu-card): no calibrations that need it.\n";

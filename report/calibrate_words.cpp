@@ -83,6 +83,7 @@ std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
     // A quantity with an error and no value: the worst corrected heading.
     if (quantity.name != "worst_heading_rad") one.value = fmt::format("{:.{}f}", value, decimals);
     if (std::isfinite(error)) one.error = fmt::format("{:.{}f}", error, decimals);
+    if (std::isfinite(quantity.next_std)) one.next = fmt::format("{:.{}f}", quantity.next_std * factor, decimals);
     all.push_back(std::move(one));
   }
   return all;
@@ -93,6 +94,7 @@ std::string text_of(const ShownQuantity& quantity, std::string_view plus_minus) 
   if (!quantity.value.empty()) text += " " + quantity.value;
   if (!quantity.error.empty()) text.append(" ").append(plus_minus).append(" ").append(quantity.error);
   if (!quantity.unit.empty()) text += " " + quantity.unit;
+  if (!quantity.next.empty()) text += fmt::format(" (next use {} {})", plus_minus, quantity.next);
   return text;
 }
 
@@ -122,8 +124,26 @@ std::string sentence_of(const calib::HeadingCheck& heading) {
       heading.before_rad * base::kDegreesPerRadian, heading.after_rad * base::kDegreesPerRadian, heading.blocks);
 }
 
+std::string next_use_of(const calib::Report& report) {
+  if (report.parts == 0) return {};
+  const auto is_known = [](const calib::Quantity& quantity) { return std::isfinite(quantity.next_std); };
+  const bool any = std::ranges::any_of(report.calibrators, [&](const calib::CalibratorReport& calibrator) {
+    return std::ranges::any_of(calibrator.estimate, is_known);
+  });
+  const std::string parts =
+      fmt::format("{} {}", report.parts, report.parts_are_files ? "files" : "quarters of the recording");
+  if (any) return fmt::format("Next use: by what {}, each calibrated alone, find beside each other.", parts);
+  return fmt::format(
+      "Errors are those within the recording. Of the next use nothing is known: of {}, fewer than two give an "
+      "accepted estimate alone. A second recording tells.",
+      parts);
+}
+
 std::vector<std::string> field_history_of(const calib::Report& report) {
   std::vector<std::string> lines;
+  if (report.moves > 0)
+    lines.push_back(fmt::format("another place {}, with the field of that place: no step",
+                                report.moves == 1 ? "once" : fmt::format("{} times", report.moves)));
   if (report.steps.empty()) return lines;
   const auto percent = [](const std::optional<double>& spread) {
     return spread ? fmt::format("{:.2f} %", 100 * *spread) : std::string("unknown");

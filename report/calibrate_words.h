@@ -16,13 +16,14 @@ namespace navcal::report {
 /// One number of an estimate: angles in degrees, delays in milliseconds, with as many digits as its error
 /// justifies.
 struct ShownQuantity {
-  std::string name;   ///< "scale", "bias", "B"
-  std::string value;  ///< empty for a bare error
-  std::string error;  ///< empty if it is unknown
-  std::string unit;   ///< "deg/s"; may be empty
+  std::string name;    ///< "scale", "bias", "B"
+  std::string value;   ///< empty for a bare error
+  std::string error;   ///< empty if it is unknown
+  std::string unit;    ///< "deg/s"; may be empty
+  std::string next{};  ///< error at the next use; empty if it is unknown
 };
 [[nodiscard]] std::vector<ShownQuantity> shown(const calib::CalibratorReport& report);
-/// Text such as "bias -6.366 +- 0.012 deg/s"; `plus_minus` stands between value and error.
+/// Text such as "bias -6.366 +- 0.012 deg/s (next use +- 0.05)"; `plus_minus` stands before each error.
 [[nodiscard]] std::string text_of(const ShownQuantity& quantity, std::string_view plus_minus);
 
 /// Judgement: "accepted", "no better" or "refused".
@@ -31,6 +32,9 @@ struct ShownQuantity {
 [[nodiscard]] std::string held_out_of(const calib::CalibratorReport& report, std::string_view arrow);
 /// The heading as a whole, before and after, or the reason why it could not be judged.
 [[nodiscard]] std::string sentence_of(const calib::HeadingCheck& heading);
+
+/// Whence the errors at the next use are, or why there are none; empty where they were not asked for.
+[[nodiscard]] std::string next_use_of(const calib::Report& report);
 
 /// One line for each step of the field and for each segment between two; empty without a step.
 [[nodiscard]] std::vector<std::string> field_history_of(const calib::Report& report);

@@ -51,6 +51,7 @@ struct FieldStep {
   Eigen::Vector3d size_uT = Eigen::Vector3d::Zero();  ///< hard iron after less hard iron before, body axes
   Eigen::Vector3d std_uT = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   std::optional<FieldContrast> contrast;
+  bool is_place = false;  ///< no step of the vehicle's field: it is at another place, or back at the one before
   void archive(Archive& archive) {
     archive(onset_sample, found_sample, returned, time_s, utc_ns, size_uT, std_uT, contrast);
   }

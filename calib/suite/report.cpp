@@ -32,6 +32,10 @@ std::string objection_of(const CalibratorReport& report) {
 std::string utc_text(std::int64_t utc_ns) { return utc_ns == 0 ? "an unknown time" : base::utc_text(utc_ns); }
 
 std::string words_of(const FieldStep& step) {
+  if (step.is_place)
+    return step.returned ? "the field is that of the place before"
+                         : "the field is that of another place: what was accepted before holds while it makes the "
+                           "field here even";
   const auto& size = step.size_uT;
   const auto& error = step.std_uT;
   // Else all that is known is that the fits before and after differ.

@@ -61,7 +61,7 @@ struct HeadingCheck {
 /// "2030-01-01T00:00:45.312Z"; of 0 that it is not known.
 [[nodiscard]] std::string utc_text(std::int64_t utc_ns);
 /// "the field stepped by (-1.5, -0.5, -13.6) +- (0.2, 0.1, 0.1) uT at 2030-01-01T00:00:45.312Z", in body axes; of
-/// a return to the field before it says so.
+/// a return to the field before it says so, and so of another place.
 [[nodiscard]] std::string words_of(const FieldStep& step);
 
 /// The whole suite, for status, log and calibrate.
@@ -73,8 +73,12 @@ struct Report {
   HeadingCheck heading;
   HeadingHistogram rose{};             ///< headings visited, as the compass measured them
   std::vector<FieldStep> steps;        ///< of the field of the compass
+  std::uint32_t moves = 0;             ///< changes of the place, which are no steps
   std::vector<FieldSegment> segments;  ///< between them, one more than steps; empty without readings of the field
   GateCounts gate;
+  /// Parts of the recordings that were calibrated alone, for Quantity::next_std; 0: that was not done.
+  std::size_t parts = 0;
+  bool parts_are_files = false;
 
   /// Null when it has no instruments.
   [[nodiscard]] const CalibratorReport* find(Calibrator calibrator) const;

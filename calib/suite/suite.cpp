@@ -151,6 +151,7 @@ std::optional<Calibrator> Suite::take_adopted() {
 }
 
 std::optional<FieldStep> Suite::take_field_step() {
+  if (told_move_) return std::exchange(told_move_, std::nullopt);
   const Magnetometer& magnetometer = estimators_.magnetometer();
   const std::uint32_t told = magnetometer.field_steps() + magnetometer.withdrawn_steps();
   const bool is_new = told > told_steps_;
@@ -271,6 +272,7 @@ Report Suite::report() const {
   report.heading = {heading.blocks(), heading.before_rms(), heading.estimate_rms(), heading.in_force_rms()};
   report.rose = rose_;
   report.steps = estimators_.magnetometer().history().steps();
+  report.moves = estimators_.magnetometer().moves();
   report.segments = estimators_.magnetometer().history().segments();
   report.gate = gate_.counts();
   return report;

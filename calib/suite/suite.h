@@ -111,7 +111,8 @@ class Suite {
   std::uint32_t followed_steps_ = 0, followed_withdrawn_ = 0;
   std::uint32_t learnt_steps_ = 0;  ///< steps told before the hard iron in force was learnt
   std::uint32_t followed_moves_ = 0;
-  IronShift moved_;  ///< by which it was moved since
+  std::optional<FieldStep> told_move_;  ///< to be told
+  IronShift moved_;                     ///< by which it was moved since
 };
 
 }  // namespace navcal::calib

@@ -30,7 +30,8 @@ void Suite::follow_field() {
   constexpr double kLeastMove_uT = 0.05;
   constexpr Calibrator kIron = Calibrator::magnetometer;
   if (const auto moves = estimators_.magnetometer().moves(); moves != std::exchange(followed_moves_, moves)) {
-    FieldStep move;
+    FieldStep& move = told_move_.emplace();
+    move.is_place = true;
     move.returned = !estimators_.magnetometer().is_elsewhere();
     change_field(&move);
   }

@@ -69,7 +69,10 @@ void add_ports_send_calibration(CLI::App& ports);
 /// Stands for a command that is not in this program, and says how to get it.
 void add_left_out(CLI::App& parent, const std::string& name);
 
-/// All of them (written by cli/live/command_table.cmake).
+/// Gives each command the words below the options of its help: a section "== navcal log fetch" of footers.txt.
+void set_footers(CLI::App& app);
+
+/// All of them, with their words (written by cli/live/command_table.cmake).
 void add_commands(CLI::App& parent);
 
 }  // namespace navcal::cli

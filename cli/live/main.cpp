@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <sstream>
 
 #include "base/printable.h"
 #include "cli/live/commands.h"
@@ -12,14 +10,10 @@
 #include "config/suggestion.h"
 #include "share/manual.h"
 
-namespace navcal::cli {
-const char* footers();  // footers.txt
-}
-
 namespace {
 
-CLI::App* command_named(CLI::App& app, const std::string& name) {
-  for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+const CLI::App* command_named(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->check_name(name)) return command;
   }
   return nullptr;
@@ -43,8 +37,8 @@ std::vector<std::string> option_names(const CLI::App& app) {
 
 /// Message for a command line with a command or an option that does not exist: its name and the nearest one
 /// that does. Empty when neither is the cause of the error.
-std::string misspelling(CLI::App& app, const std::vector<std::string>& arguments) {
-  CLI::App* current = &app;
+std::string misspelling(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const CLI::App* current = &app;
   std::string called = app.get_name();
   for (const std::string& argument : arguments) {
     if (argument.starts_with("--")) {
@@ -54,7 +48,7 @@ std::string misspelling(CLI::App& app, const std::vector<std::string>& arguments
                          navcal::config::suggestion(name, option_names(*current)), called);
     }
     if (argument.starts_with('-')) continue;
-    if (CLI::App* const command = command_named(*current, argument)) {
+    if (const CLI::App* const command = command_named(*current, argument)) {
       current = command;
       called += ' ' + command->get_name();
     } else if (current->get_require_subcommand_min() > 0) {
@@ -72,24 +66,6 @@ bool lacks_command(const CLI::App& app, const CLI::ParseError& error) {
   return error.get_name() == "RequiredError" && called->get_require_subcommand_min() > 0;
 }
 
-/// Gives each command the words below the options of its help: a section "== navcal log fetch" of footers.txt.
-void add_footers(CLI::App& app) {
-  constexpr std::string_view kBegin = "\n== ";
-  for (std::string_view rest = navcal::cli::footers(); rest.starts_with(kBegin);) {
-    rest.remove_prefix(kBegin.size());
-    const std::string_view section = rest.substr(0, rest.find(kBegin));
-    rest.remove_prefix(section.size());
-    const std::size_t end = section.find('\n');
-    std::istringstream names(std::string(section.substr(0, end)));
-    std::string name;
-    names >> name;
-    CLI::App* command = &app;
-    while (command != nullptr && names >> name) command = command_named(*command, name);
-    if (command != nullptr)
-      command->footer(std::string(section.substr(end + 1, section.find_last_not_of('\n') - end)));
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -102,7 +78,6 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
 
   navcal::cli::add_commands(app);
-  add_footers(app);
   navcal::share::add_manual(app);
 
   try {

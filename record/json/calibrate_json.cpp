@@ -146,7 +146,16 @@ void append_calibrate_json(std::string& out, const calib::Report& report) {
        {Calibrator::misalignment, Calibrator::swing, Calibrator::compass_delay, Calibrator::course_delay}) {
     json[std::string(calib::name_of(calibrator))] = beside(report, calibrator);
   }
+  if (report.parts > 0) {
+    Json& next = json["next_use"];
+    next["parts"] = report.parts;
+    next["between"] = report.parts_are_files ? "files" : "quarters";
+    for (const auto& one : report.calibrators)
+      next["std"][std::string(calib::name_of(one.calibrator))] =
+          values_json(one.estimate, &calib::Quantity::next_std);
+  }
   json["steps"] = steps_json(report.steps);
+  json["changes_of_place"] = report.moves;
   json["segments"] = segments_json(report.segments);
   json["motor_current"] = motor_json(report.find(Calibrator::motor_current));
   json["rose"] = report.rose;

@@ -60,6 +60,47 @@ TEST_F(Calibrate, ParametersOfAnAutopilotOnlyOfAnAcceptedEstimate) {
   EXPECT_FALSE(std::filesystem::exists(not_turned));
 }
 
+TEST_F(Calibrate, ErrorsAtTheNextUseAreWhatRecordingsFindAlone) {
+  std::vector<std::string> files;
+  for (const double x_uT : {3.0, 4.0, 5.5}) {
+    RecordingOptions options = with_iron(120);
+    options.offset_uT.x() = x_uT;
+    options.seed = static_cast<std::uint64_t>(10 * x_uT);
+    options.begin_s += static_cast<std::int64_t>(1000 * x_uT);
+    files.push_back(
+        write(fmt::format("iron{}.cap", files.size()), simulated_recording(turning_path(120), options)));
+  }
+  const Json answer = json_of(files);
+  EXPECT_EQ(answer["next_use"]["parts"], 3);
+  EXPECT_EQ(answer["next_use"]["between"], "files");
+  const double next_uT = answer["next_use"]["std"]["magnetometer"]["offset_x_uT"];
+  EXPECT_GT(next_uT, 2) << "1.26 uT of scatter, times Student's point of two degrees of freedom";
+  EXPECT_LT(next_uT, 5);
+  EXPECT_LT(answer["magnetometer"]["std"]["offset_uT"][0], 0.5);
+  EXPECT_NE(run({files[0], files[1], files[2]}).output.find("(next use +- "), std::string::npos);
+}
+
+TEST_F(Calibrate, ARecordingThatIsGivenTwiceTellsNothingOfTheNextUseButByItsQuarters) {
+  const std::string file = write("a.cap", turning());
+  const Json answer = json_of({file, file});
+  EXPECT_EQ(answer["next_use"]["parts"], 4);
+  EXPECT_EQ(answer["next_use"]["between"], "quarters");
+  const std::string text = run({write("short.cap", simulated_recording(turning_path(60), with_iron(60)))}).output;
+  EXPECT_EQ(text.find("ext use"), std::string::npos) << "too short for quarters\n" << text;
+}
+
+TEST_F(Calibrate, AnotherPlaceIsSaid) {
+  RecordingOptions there = with_iron(120);
+  there.matrix *= 0.6;
+  there.seed = 2;
+  there.begin_s += 100'000;
+  const std::string here_file = write("here.cap", turning());
+  const std::string there_file = write("there.cap", simulated_recording(turning_path(120), there));
+  EXPECT_EQ(json_of({here_file})["changes_of_place"], 0);
+  EXPECT_EQ(json_of({here_file, there_file})["changes_of_place"], 1);
+  EXPECT_NE(run({here_file, there_file}).output.find("another place once"), std::string::npos);
+}
+
 TEST_F(Calibrate, NoParametersOfALiveLogWhoseFieldsAreCorrected) {
   std::string capture = "#capture 1\n#port rov mavlink 4000000\n";
   const auto add = [&](int time_ms, std::uint32_t id, const std::vector<std::uint8_t>& payload) {

@@ -178,6 +178,23 @@ TEST(Navigator, ATiltMakesNoHeadingOldThatWasMeasuredBeforeIt) {
   EXPECT_NEAR(navigator.estimate().roll_rad.value_or(9), 0.1, 0.01) << "an older tilt is left out";
 }
 
+TEST(Navigator, AHullThatFloatsWithItsTailDownIsNotAboveTheWater) {
+  for (const double gauge_m : {0.0, -0.05, 3.0}) {
+    Navigator navigator({});
+    for (std::int64_t i = 0; i < 200; ++i) {
+      const std::int64_t t_ns = kStart_ns + i * (kSecond_ns / 10);
+      navigator.take(RateReading{t_ns, Eigen::Vector3d::Zero(), std::nullopt});
+      navigator.take(CompassReading{t_ns, 1.0, std::numbers::pi / 3, 0.0, true, false});
+      navigator.take(DepthReading{t_ns, gauge_m, {-1, 0, 0}, 0.05});
+    }
+    // The gauge is 0.87 m below the origin; at the surface it was set to zero, or hangs in the air.
+    const double lever_m = std::sin(std::numbers::pi / 3);
+    const bool floats = gauge_m < lever_m;
+    EXPECT_NEAR(navigator.estimate().depth_m.value(), floats ? gauge_m : gauge_m - lever_m, 0.01);
+    EXPECT_NEAR(navigator.estimate().depth_std_m.value(), floats ? std::hypot(0.05, lever_m) : 0.05, 0.02);
+  }
+}
+
 TEST(Navigator, AHeadingIsNoBetterThanItsDeviceStates) {
   for (const auto& [device_rad, stated_rad] :
        {std::pair(0.17, 0.17), std::pair(0.01, 5 * std::numbers::pi / 180)}) {

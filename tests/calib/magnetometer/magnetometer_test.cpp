@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "calib/suite/report.h"
 #include "tests/calib/magnetometer_paths.h"
 
 namespace navcal::calib::test {
@@ -230,6 +231,14 @@ TEST(Magnetometer, AnotherPlaceIsNoStepAndWhatWasAcceptedStands) {
   // Other iron than before: what was accepted stands no longer.
   feed_at(magnetometer, 7400, 0.6, turning(40, 660, kBefore + Eigen::Vector3d(12, -9, 0), random));
   EXPECT_FALSE(magnetometer.judgement().accepted);
+}
+
+TEST(FieldStep, AnotherPlaceIsToldInWordsOfItsOwn) {
+  FieldStep move;
+  move.is_place = true;
+  EXPECT_NE(words_of(move).find("another place"), std::string::npos);
+  move.returned = true;
+  EXPECT_NE(words_of(move).find("the place before"), std::string::npos);
 }
 
 TEST(Magnetometer, AnotherRunAtTheSamePlaceGoesOn) {
