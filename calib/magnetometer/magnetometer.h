@@ -90,6 +90,8 @@ class Magnetometer {
   [[nodiscard]] std::uint32_t moves() const { return moves_; }
   [[nodiscard]] bool is_elsewhere() const { return is_elsewhere_; }
   [[nodiscard]] std::optional<FieldStep> last_step() const;
+  /// Relative scatter of the size of the readings of the present field, corrected so; 0 without readings.
+  [[nodiscard]] double scatter_of_size(const FieldCorrection& correction) const;
   /// Steps, and the segments between them.
   [[nodiscard]] const FieldHistory& history() const { return history_; }
   [[nodiscard]] std::uint64_t readings() const { return readings_; }

@@ -18,17 +18,17 @@ const Magnetometer::Answer& Magnetometer::answer() const {
   return *answer_;
 }
 
+double Magnetometer::scatter_of_size(const FieldCorrection& correction) const {
+  const SizeSpread size = spread_of(now_.ellipsoid.cells(), correction.matrix, correction.offset_uT);
+  return size.mean > 0 ? size.std / size.mean : 0;
+}
+
 bool Magnetometer::has_same_iron() const {
-  // Relative scatter of the size that a place has anyway, and the share of the raw one that may be left.
+  // Scatter that a place has anyway, and the share of the raw one that may be left.
   constexpr double kEven = 0.02, kShareLeft = 0.7;
   const EllipsoidShape& shape = before_->predictor.shape();
-  const EllipsoidCells cells = now_.ellipsoid.cells();
-  const auto relative = [&](const Eigen::Matrix3d& matrix, const Eigen::Vector3d& centre_uT) {
-    const SizeSpread size = spread_of(cells, matrix, centre_uT);
-    return size.mean > 0 ? size.std / size.mean : 0;
-  };
-  return relative(shape.matrix_per_uT, shape.centre_uT) <=
-         std::max(kEven, kShareLeft * relative(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()));
+  return scatter_of_size({shape.centre_uT, shape.matrix_per_uT}) <=
+         std::max(kEven, kShareLeft * scatter_of_size({}));
 }
 
 Magnetometer::Answer Magnetometer::chosen(const Estimators& of) {

@@ -59,6 +59,14 @@ void Suite::follow_field() {
   } else if (flags_[index_of(kIron)].left) {
     come_back(kIron);
   }
+  const bool has_returned = steps > before && history.steps().back().returned;
+  const auto& iron = in_force_.correction().magnetometer;
+  const Magnetometer& magnetometer = estimators_.magnetometer();
+  // Readings of the field that is back judge what was adopted in the other one.
+  if (has_returned && iron && magnetometer.scatter_of_size(*iron) > magnetometer.scatter_of_size({})) {
+    leave(kIron, {});
+    flags_[index_of(kIron)].left = false;
+  }
   if (is_withdrawn) change_field(nullptr);
   if (steps > before) change_field(&history.steps().back());
 }
