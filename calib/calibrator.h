@@ -86,6 +86,7 @@ struct CalibratorRow {
 
   Corrects corrects = Corrects::heading;
   bool automatic = false;    ///< its estimate may come into force without an order
+  bool only_shown = false;   ///< it has no value that could come into force
   bool by_order = false;     ///< it begins only when an order starts it
   bool of_compass = false;   ///< begins anew when the compass or its field becomes another one
   bool field_alone = false;  ///< learns from the field alone; judged by the field where no gyro serves

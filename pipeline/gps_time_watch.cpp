@@ -16,6 +16,7 @@ constexpr int kJumpsToBelieve = 4;    // in a row
 constexpr double kEarly_s = 0.1;
 constexpr std::int64_t kDay_s = 86'400;
 constexpr double kBoundSigmas = 3;
+constexpr int kSilent = 3, kMuchBetter = 2;
 /// The epoch of a receiver may lie beside the second by this much. A u-blox receiver keeps its clock within half a
 /// millisecond and states the exact time.
 constexpr std::int64_t kBeside_ns = 2'000'000;
@@ -66,12 +67,17 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
       std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns))) +
       (in_leap_second ? base::kSecond_ns : 0);  // it ends before the next message comes
   candidate.at_ns = observed_ns;
-  const bool ours = in_force.source == UtcMapping::Source::gps;
-  const bool old = observed_ns - in_force.at_ns > kMappingRefreshAge_ns;
+  const std::int64_t age_ns = observed_ns - in_force.at_ns;
+  const bool ours = in_force.source == UtcMapping::Source::gps && in_force.at_ns == given_ns_;
   const bool disagrees = std::abs(candidate.offset_ns - in_force.offset_ns) > candidate.bound_ns;
-  if (ours ? (old || disagrees || in_leap_second) : candidate.bound_ns < bound_at(in_force, observed_ns))
-    return candidate;
-  return std::nullopt;
+  // Of two receivers that disagree the first stays while it speaks, unless the other one is much better.
+  const bool is_others = in_force.source == UtcMapping::Source::gps && age_ns < kSilent * kMappingRefreshAge_ns;
+  const std::int64_t narrower_than_ns = bound_at(in_force, observed_ns) / (is_others ? kMuchBetter : 1);
+  const bool better =
+      ours ? age_ns > kMappingRefreshAge_ns || disagrees || in_leap_second : candidate.bound_ns < narrower_than_ns;
+  if (!better) return std::nullopt;
+  given_ns_ = candidate.at_ns;
+  return candidate;
 }
 
 }  // namespace navcal::pipeline

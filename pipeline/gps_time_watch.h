@@ -26,8 +26,9 @@ class GpsTimeWatch {
   double latency_std_s_;
   instruments::ClockModel model_;
   std::int64_t last_second_ = 0;
-  std::int64_t leap_s_ = 0;  ///< leap seconds since the beginning: the seconds of the model have them
-  int jumps_ = 0;            ///< messages in a row that do not fit
+  std::int64_t leap_s_ = 0;            ///< leap seconds since the beginning: the seconds of the model have them
+  int jumps_ = 0;                      ///< messages in a row that do not fit
+  std::int64_t given_ns_ = INT64_MIN;  ///< UtcMapping::at_ns of the last mapping it gave
 };
 
 }  // namespace navcal::pipeline

@@ -18,7 +18,8 @@
   ROW(course_delay)             \
   ROW(motor_current)            \
   ROW(reference_compass)        \
-  ROW(reference_field)
+  ROW(reference_field)          \
+  ROW(adaptive)
 
 namespace navcal::calib {
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gyros A and B: scale and bias of each from turns, and how far they disagree.
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "calib/suite/calibrator_unit.h"
 #include "calib/suite/shared_estimators.h"
+#include "calib/thesis/adaptive_identifier.h"
 
 namespace navcal::calib {
 namespace {
@@ -11,6 +14,8 @@ namespace {
 // Standard errors from which on the readings have not told more than was known before them.
 constexpr double kScaleUndetermined = 1;
 constexpr double kRateUndetermined_rad_s = 1;
+
+constexpr std::array<std::string_view, 2> kRateNames{"scale", "bias_rad_s"};
 
 std::optional<RateCorrection> rate_of(const TurnCalibrator& gyro) {
   if (!gyro.has_estimate()) return std::nullopt;
@@ -27,7 +32,7 @@ std::vector<Quantity> quantities_of_gyro(const TurnCalibrator& gyro) {
 }
 
 std::vector<NamedNumbers> values_of_rate(const RateCorrection& rate) {
-  return {{"scale", {rate.scale}}, {"bias_rad_s", {rate.bias_rad_s}}};
+  return {{kRateNames[0], {rate.scale}}, {kRateNames[1], {rate.bias_rad_s}}};
 }
 
 class GyroUnit : public CalibratorUnit {
@@ -82,10 +87,59 @@ class GyroBUnit : public CalibratorUnit {
   GyroPair& pair_;  ///< archived with the shared estimators
 };
 
+/// The adaptive identifier of Mach 2003, chapter 3, beside the others: it has no value that could come into force.
+class AdaptiveUnit : public CalibratorUnit {
+ public:
+  AdaptiveUnit(const SuiteOptions&, SharedEstimators&) {}
+  void update_turn(const TurnStep& step) override {
+    // Its steps of Euler's method become unstable when they are long.
+    constexpr double kLongest_s = 0.5;
+    if (step.begins_segment || step.duration_s > kLongest_s || !(step.bias_time_s > 0))
+      return identifier_.restart();
+    heading_rad_ += std::remainder(step.heading_rad - heading_rad_, 2 * std::numbers::pi);
+    identifier_.set_period(step.duration_s);
+    identifier_.update(heading_rad_, step.roll_rad, step.pitch_rad, step.measured_angle_rad / step.bias_time_s);
+    time_s_ += step.duration_s;
+  }
+  void start() override {
+    identifier_ = thesis::AdaptiveIdentifier(kUsual_s);
+    time_s_ = 0;
+  }
+  void put_estimate(Correction& into) const override { put_added(into, {}); }
+  [[nodiscard]] Judgement judgement() const override {
+    return Judgement().refused("for comparison only: it states no error, and never comes into force", "");
+  }
+  [[nodiscard]] std::vector<Quantity> quantities() const override {
+    constexpr double kSettled_s = 60;
+    if (time_s_ < kSettled_s) return {};
+    const Eigen::Vector2d estimate = identifier_.estimate();
+    return {{kRateNames[0], estimate[0], kUnknownStd}, {kRateNames[1], estimate[1], kUnknownStd}};
+  }
+  void archive(Archive& archive) override {
+    archive.tag("adaptive_unit 1");
+    archive(identifier_, heading_rad_, time_s_);
+  }
+
+ private:
+  static constexpr double kUsual_s = 0.1;
+
+  thesis::AdaptiveIdentifier identifier_{kUsual_s};
+  double heading_rad_ = 0;  ///< unwrapped
+  double time_s_ = 0;       ///< of all steps
+};
+
 }  // namespace
 
 namespace calibrator_rows {
-extern const CalibratorRow gyro, gyro_b;
+extern const CalibratorRow gyro, gyro_b, adaptive;
+constinit const CalibratorRow adaptive{.name = "adaptive",
+                                       .title = "Adaptive identifier",
+                                       .needs = {.compass = true, .rate = true},
+                                       .needs_text = "a compass and an inertial card (protocol imu-card)",
+                                       .corrects = Corrects::rate,
+                                       .only_shown = true,
+                                       .value_names = kRateNames,
+                                       .make = make_unit<AdaptiveUnit>};
 constinit const CalibratorRow gyro{
     .name = "gyro",
     .title = "Gyro A",

@@ -20,7 +20,8 @@ Suite::Suite(const SuiteOptions& options, Instruments instruments)
     : options_(options), instruments_(instruments), gate_(options.gate), estimators_(options),
       flags_(calibrators().size()) {
   for (const Calibrator calibrator : calibrators()) {
-    if (index_of(calibrator) < kNamedCalibrators || has_instruments(calibrator)) judged_.push_back(calibrator);
+    const bool is_there = index_of(calibrator) < kNamedCalibrators || has_instruments(calibrator);
+    if (is_there && !row_of(calibrator).only_shown) judged_.push_back(calibrator);
   }
 }
 

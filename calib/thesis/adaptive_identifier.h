@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "calib/archive.h"
+
 namespace navcal::calib::thesis {
 
 /// Model: psidot = c f'beta, f = [omega_m 1]', beta = [abar bbar]', c = cos(phi)/cos(theta) (3.6, 3.7); identified
@@ -15,10 +17,16 @@ class AdaptiveIdentifier {
 
   /// `heading_rad` unwrapped.
   void update(double heading_rad, double roll_rad, double pitch_rad, double measured_rate_rad_s);
+  /// h of the readings that come.
+  void set_period(double period_s) { period_s_ = period_s; }
+  /// Readings are missing: the heading begins anew.
+  void restart() { heading_rad_.reset(); }
   /// (abar, bbar).
   [[nodiscard]] Eigen::Vector2d estimate() const { return estimate_; }
   /// xhat; nothing before the first reading.
   [[nodiscard]] std::optional<double> heading_rad() const { return heading_rad_; }
+
+  void archive(Archive& archive) { archive(period_s_, heading_rad_, estimate_); }
 
  private:
   static constexpr double kGain = -0.75;               ///< K, 1/s

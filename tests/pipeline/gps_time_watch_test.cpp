@@ -118,6 +118,33 @@ TEST(GpsTimeWatch, NarrowerMappingsStay) {
   }
 }
 
+TEST(GpsTimeWatch, TwoReceiversThatDisagreeDoNotTakeTurns) {
+  for (const double second_std_s : {0.020, 0.015, 0.005}) {
+    GpsTimeWatch first(0.020), second(second_std_s);
+    UtcMapping mapping{UtcMapping::Source::none, 0, UtcMapping::kUnknownBound, 0};
+    int changes = 0;
+    std::int64_t offset_ns = 0;
+    const auto take = [&](const std::optional<UtcMapping>& found) {
+      if (!found) return;
+      changes += std::abs(found->offset_ns - offset_ns) > 50'000'000 ? 1 : 0;
+      mapping = *found;
+      offset_ns = found->offset_ns;
+    };
+    for (std::int64_t k = 10; k < 600; ++k) {
+      take(first.update(kUtc + k * base::kSecond_ns, k * base::kSecond_ns, mapping));
+      const std::int64_t late_ns = k * base::kSecond_ns + 300'000'000;
+      if (k > 20) take(second.update(kUtc + k * base::kSecond_ns, late_ns, mapping));
+    }
+    EXPECT_LE(changes, second_std_s < 0.01 ? 2 : 1) << second_std_s;
+    // The one that fell silent is replaced.
+    for (std::int64_t k = 600; k < 900; ++k) {
+      const std::int64_t late_ns = k * base::kSecond_ns + 300'000'000;
+      take(second.update(kUtc + k * base::kSecond_ns, late_ns, mapping));
+    }
+    EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc), -0.3e9, 0.1e9) << second_std_s;
+  }
+}
+
 TEST(GpsTimeWatch, RepeatedAndBackwardTimesDoNoHarm) {
   GpsTimeWatch watch(0.020);
   UtcMapping mapping;
