@@ -108,20 +108,12 @@ void add_audit(CLI::App& app) {
   auto arguments = std::make_shared<AuditArguments>();
   auto* command =
       app.add_subcommand("audit", "what is wrong with the sensors of a log, what it costs, and what to do");
-  command
-      ->add_option("FILE", arguments->files,
-                   "log or capture of navcal, or a log of another system, known by its content; of several, each "
-                   "is compared with the first")
-      ->required();
-  add_valued(command, "--vehicle", "LAYOUT.toml", arguments->vehicle,
-             "layout: commands are checked against the motion, too");
-  add_valued(command, "--map", "FILE.toml", arguments->map,
-             "meaning of the columns of a CSV file, or of the outputs of another log");
+  command->add_option("FILE", arguments->files)->required();
+  add_valued(command, "--vehicle", "LAYOUT.toml", arguments->vehicle);
+  add_valued(command, "--map", "FILE.toml", arguments->map);
   add_window(*command, *arguments);
-  add_valued(command, "--json", "FILE|-", arguments->json,
-             "the findings as one JSON object; - is standard output, without text");
-  add_valued(command, "--report", "FILE.html", arguments->report,
-             "page to write, with pictures; needs no other file");
+  add_valued(command, "--json", "FILE|-", arguments->json);
+  add_valued(command, "--report", "FILE.html", arguments->report);
   command->callback([arguments] { audit(*arguments); });
 }
 

@@ -99,18 +99,12 @@ void add_calibrate(CLI::App& app) {
   auto options = std::make_shared<CalibrateCommandOptions>();
   auto* command =
       app.add_subcommand("calibrate", "calibrations of compass and gyros from recordings, with standard errors");
-  command
-      ->add_option("FILE", options->files,
-                   "logs (.mcap) or captures (.cap) in order of time; one series, or several recordings")
-      ->required();
-  command->add_option("--config", options->config, "configuration to use instead of the recording's own");
+  command->add_option("FILE", options->files)->required();
+  command->add_option("--config", options->config);
   add_window(*command, *options);
-  command->add_flag("--json", options->json, "one JSON object instead of text");
-  add_valued(command, "--report", "FILE.html", options->report,
-             "page to write, with pictures; needs no other file");
-  add_valued(command, "--parameters", "FILE.param", options->parameters,
-             "parameters of ArduPilot (COMPASS_OFS_X ...) to write: its compass then corrects as this "
-             "calibration. Of a PX4, or as FILE.params, CAL_MAG0_XOFF ... in QGroundControl's format");
+  command->add_flag("--json", options->json);
+  add_valued(command, "--report", "FILE.html", options->report);
+  add_valued(command, "--parameters", "FILE.param", options->parameters);
   command->callback([options] {
     if (options->json && options->files.front() == "-")
       options->files.erase(options->files.begin());  // as elsewhere

@@ -201,27 +201,13 @@ void add_decode(CLI::App& app) {
              fmt::format("Protocol of the device: {}; with --port the default is the one in the recording",
                          fmt::join(listed, ", ")))
       ->check(CLI::IsMember(names));
-  command
-      ->add_option("--device", arguments->device,
-                   "File that describes the device; with --port the default is the description in the log")
-      ->type_name("FILE.toml")
-      ->excludes("--protocol");
-  command
-      ->add_option("--port", arguments->port, "FILE is a capture or log; decode the bytes that this port received")
-      ->type_name("NAME");
-  command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
-  command
-      ->add_option("--pivot", arguments->pivot,
-                   "Dates before this one are advanced by whole epochs of 1024 weeks (GPS week rollover); default "
-                   "for oncore 2019-04-07, for nmea the dates as sent")
-      ->type_name("YYYY-MM-DD")
-      ->check([](const std::string& text) {
-        return protocols::parse_iso_date(text) ? std::string{} : text + " is not a date, such as 2019-04-07";
-      });
-  command
-      ->add_option("FILE", arguments->file,
-                   "Bytes as the device sent them (- is standard input), or with --port a capture or log")
-      ->required();
+  command->add_option("--device", arguments->device)->type_name("FILE.toml")->excludes("--protocol");
+  command->add_option("--port", arguments->port)->type_name("NAME");
+  command->add_flag("--json", arguments->json);
+  command->add_option("--pivot", arguments->pivot)->type_name("YYYY-MM-DD")->check([](const std::string& text) {
+    return protocols::parse_iso_date(text) ? std::string{} : text + " is not a date, such as 2019-04-07";
+  });
+  command->add_option("FILE", arguments->file)->required();
   command->callback([arguments] {
     if (arguments->protocol.empty() && arguments->port.empty() && arguments->device.empty())
       throw CLI::RequiredError("--protocol, --device or --port");

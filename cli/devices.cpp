@@ -118,19 +118,17 @@ void begin(const NewArguments& arguments) {
 }
 
 void add_capture(CLI::App& command, std::string& capture, std::string& port) {
-  command
-      .add_option("CAPTURE", capture, "Bytes as the device sent them (- is standard input), or a capture or log")
-      ->required();
-  command.add_option("--port", port, "Port of the capture or log; default: the only one")->type_name("NAME");
+  command.add_option("CAPTURE", capture)->required();
+  command.add_option("--port", port)->type_name("NAME");
 }
 
 void add_check(CLI::App& devices) {
   const auto arguments = std::make_shared<CheckArguments>();
   auto* const command =
       devices.add_subcommand("check", "What a description finds in a capture of the device's bytes");
-  command->add_option("FILE", arguments->description, "Description of the device (.toml)")->required();
+  command->add_option("FILE", arguments->description)->required();
   add_capture(*command, arguments->capture, arguments->port);
-  command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
+  command->add_flag("--json", arguments->json);
   command->callback([arguments] { check(*arguments); });
 }
 
@@ -139,10 +137,7 @@ void add_new(CLI::App& devices) {
   auto* const command =
       devices.add_subcommand("new", "Begin the description of a device from a capture of its bytes");
   add_capture(*command, arguments->capture, arguments->port);
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "File to be written; one that is there is never written over. Default: standard output")
-      ->type_name("FILE.toml");
+  command->add_option("-o,--output", arguments->output)->type_name("FILE.toml");
   command->callback([arguments] { begin(*arguments); });
 }
 

@@ -125,23 +125,15 @@ void list_fleet(const std::string& folder, bool json) {
 void add_fleet_plan(CLI::App& parent) {
   auto* command = parent.add_subcommand("plan", "make or extend a plan for the recordings of a folder");
   const auto request = std::make_shared<fleet::PlanRequest>();
-  command->add_option("FOLDER", request->recordings, "folder with recordings (.cap, .mcap), at any depth")
-      ->required();
-  add_valued(command, "-o,--output", "PLAN", request->plan, "folder of the plan")->required();
-  add_valued(command, "--vehicle", "FILE.toml", request->vehicle,
-             "the nominal vehicle of all; default: vehicle.toml beside the recording or in a folder above it, "
-             "else the reference vehicle");
-  add_valued(command, "--config", "FILE.toml", request->config,
-             "configuration of all recordings, instead of their own");
+  command->add_option("FOLDER", request->recordings)->required();
+  add_valued(command, "-o,--output", "PLAN", request->plan)->required();
+  add_valued(command, "--vehicle", "FILE.toml", request->vehicle);
+  add_valued(command, "--config", "FILE.toml", request->config);
   std::vector<std::string> names;
   for (const fleet::Job& job : fleet::jobs()) names.emplace_back(job.name);
-  command->add_option("--job", request->jobs, "what to do with each recording; several with commas")
-      ->delimiter(',')
-      ->check(CLI::IsMember(names))
-      ->capture_default_str();
-  add_number(command, "--bank", gap::kLeastNulls, gap::kMostNulls, request->bank_missions,
-             "number of simulated null missions of each bank");
-  add_defaulted(command, "--seed", request->bank_seed, "seed of their noise and tolerances");
+  command->add_option("--job", request->jobs)->delimiter(',')->check(CLI::IsMember(names))->capture_default_str();
+  add_number(command, "--bank", gap::kLeastNulls, gap::kMostNulls, request->bank_missions);
+  add_defaulted(command, "--seed", request->bank_seed);
   command->callback([request] { with_exit_statuses([&] { make_fleet_plan(*request); }); });
 }
 
@@ -153,10 +145,10 @@ void add_fleet_run(CLI::App& parent) {
   };
   auto* command = parent.add_subcommand("run", "do tasks of a plan; those that have a result are not done again");
   const auto options = std::make_shared<Options>();
-  command->add_option("PLAN", options->plan, "folder of the plan")->required();
-  add_valued(command, "--task", "K", options->tasks, "numbers of tasks: 7, or 3,5,7, or 10-20")->required();
-  add_number(command, "--threads", 1, 1024, options->threads, "threads of a task; they change no result");
-  command->add_flag("--again", options->again, "do tasks once more that failed");
+  command->add_option("PLAN", options->plan)->required();
+  add_valued(command, "--task", "K", options->tasks)->required();
+  add_number(command, "--threads", 1, 1024, options->threads);
+  command->add_flag("--again", options->again);
   command->callback([options] {
     with_exit_statuses([&] { run_fleet_tasks(options->plan, options->tasks, options->again, options->threads); });
   });
@@ -167,12 +159,10 @@ void add_fleet_causes(CLI::App& parent) {
                                         "what the missions tell together: which causes belong to a vehicle, to "
                                         "the design, to a day, and when they began");
   const auto options = std::make_shared<CausesOptions>();
-  command->add_option("PLAN", options->plan, "folder of the plan, with results of the job evidence")->required();
-  add_valued(command, "--json", "FILE|-", options->json,
-             "the answer as one JSON object; - is standard output, without text");
-  add_valued(command, "--report", "FILE.html", options->page, "page with pictures; needs no other file");
-  command->add_option("--threads", options->threads, "threads; default: one for each core; they change no result")
-      ->check(CLI::Range(1, 1024));
+  command->add_option("PLAN", options->plan)->required();
+  add_valued(command, "--json", "FILE|-", options->json);
+  add_valued(command, "--report", "FILE.html", options->page);
+  command->add_option("--threads", options->threads)->check(CLI::Range(1, 1024));
   command->callback([options] { with_exit_statuses([&] { tell_causes(*options); }); });
 }
 
@@ -182,9 +172,9 @@ void add_fleet_merge(CLI::App& parent) {
   };
   auto* command = parent.add_subcommand("merge", "all results of a plan in one SQLite file");
   const auto options = std::make_shared<Options>();
-  command->add_option("PLAN", options->plan, "folder of the plan")->required();
-  add_valued(command, "-o,--output", "FILE.sqlite", options->output, "the file; default: PLAN/results.sqlite");
-  add_valued(command, "--report", "FILE.html", options->page, "page with tables; needs no other file");
+  command->add_option("PLAN", options->plan)->required();
+  add_valued(command, "-o,--output", "FILE.sqlite", options->output);
+  add_valued(command, "--report", "FILE.html", options->page);
   command->callback(
       [options] { with_exit_statuses([&] { merge_fleet(options->plan, options->output, options->page); }); });
 }
@@ -196,8 +186,8 @@ void add_fleet_list(CLI::App& parent) {
   };
   auto* command = parent.add_subcommand("list", "the tasks of a plan and their state, one a line");
   const auto options = std::make_shared<Options>();
-  command->add_option("PLAN", options->plan, "folder of the plan")->required();
-  command->add_flag("--json", options->json, "one JSON object a line instead of text");
+  command->add_option("PLAN", options->plan)->required();
+  command->add_flag("--json", options->json);
   command->callback([options] { with_exit_statuses([&] { list_fleet(options->plan, options->json); }); });
 }
 

@@ -113,36 +113,19 @@ void submit(const SubmitOptions& options) {
 void add_fleet_submit(CLI::App& fleet) {
   auto* command = fleet.add_subcommand("submit", "do all open tasks of a plan, on this machine or by Slurm");
   const auto options = std::make_shared<SubmitOptions>();
-  command->add_option("PLAN", options->plan, "folder of the plan")->required();
-  auto* const local = command->add_flag("--local", options->local, "in processes of this machine");
-  auto* const slurm = command->add_flag("--slurm", options->slurm, "as job arrays of Slurm, null banks first");
+  command->add_option("PLAN", options->plan)->required();
+  auto* const local = command->add_flag("--local", options->local);
+  auto* const slurm = command->add_flag("--slurm", options->slurm);
   slurm->excludes(local);
-  command->add_option("--jobs", options->jobs, "tasks at a time; default: one for each core")
-      ->check(CLI::Range(1, 1024))
-      ->needs(local);
-  command->add_option("--threads", options->threads, "threads of a task; they change no result")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("--again", options->again, "do tasks once more that failed");
+  command->add_option("--jobs", options->jobs)->check(CLI::Range(1, 1024))->needs(local);
+  command->add_option("--threads", options->threads)->check(CLI::Range(1, 1024));
+  command->add_flag("--again", options->again);
   const auto* const by_slurm = "Slurm";
-  add_repeatable(command, "--sbatch", "OPTION", options->by_slurm.options,
-                 "an option for sbatch, such as --sbatch=--partition=long; repeatable")
-      ->needs(slurm)
-      ->group(by_slurm);
-  add_number(command, "--chunk", 1, 100'000, options->by_slurm.chunk,
-             "tasks of one array element, one after the other")
-      ->needs(slurm)
-      ->group(by_slurm);
-  add_number(command, "--attempts", 1, 100, options->by_slurm.attempts,
-             "arrays in which a task may end without a result, beyond what Slurm requeues by itself")
-      ->needs(slurm)
-      ->group(by_slurm);
-  add_number(command, "--poll", 0.1, 3600.0, options->poll_s, "seconds between two looks at the queue")
-      ->needs(slurm)
-      ->group(by_slurm);
-  add_valued(command, "--program", "FILE", options->by_slurm.program,
-             "navcal as the nodes see it; default: this program")
-      ->needs(slurm)
-      ->group(by_slurm);
+  add_repeatable(command, "--sbatch", "OPTION", options->by_slurm.options)->needs(slurm)->group(by_slurm);
+  add_number(command, "--chunk", 1, 100'000, options->by_slurm.chunk)->needs(slurm)->group(by_slurm);
+  add_number(command, "--attempts", 1, 100, options->by_slurm.attempts)->needs(slurm)->group(by_slurm);
+  add_number(command, "--poll", 0.1, 3600.0, options->poll_s)->needs(slurm)->group(by_slurm);
+  add_valued(command, "--program", "FILE", options->by_slurm.program)->needs(slurm)->group(by_slurm);
   command->callback([options] {
     if (!options->local && !options->slurm) throw CLI::RequiredError("one of --local and --slurm");
     submit(*options);

@@ -79,10 +79,8 @@ ExportFile export_file(const std::string& wanted, const fs::path& origin) {
 constexpr std::string_view kReplaces = "; --overwrite replaces it";
 
 void add_export_options(CLI::App* command, ExportOptions& options) {
-  add_repeatable(command, "--export", "NAME[=FILE]", options.wanted,
-                 "the effects found, for a simulator: sitl (ArduPilot), holoocean or stonefish, or of a layout "
-                 "the corrected layout; without FILE it has the recording's name; repeatable");
-  command->add_flag("--overwrite", options.overwrite, "--export replaces files that exist");
+  add_repeatable(command, "--export", "NAME[=FILE]", options.wanted);
+  command->add_flag("--overwrite", options.overwrite);
 }
 
 /// The files that are wanted. A file that is not named has the name of `origin`, the recording or the saved
@@ -229,17 +227,11 @@ void add_gap(CLI::App& app) {
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
   add_gap_request(*command, *options);
-  add_repeatable(
-      command, "--nominal", "FILE", options->nominals,
-      "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; repeatable");
-  command->add_flag("--steady", options->is_steady,
-                    "judge by mean forces over steady stretches alone, as is done where the layout cannot follow "
-                    "a recording; only with a layout");
-  add_valued(command, "--json", "FILE|-", options->json,
-             "the answer as one JSON object; - is standard output, without text");
-  add_valued(command, "--report", "FILE.html", options->report, "page with pictures; needs no other file");
-  add_valued(command, "--effects-out", "FILE.toml", source.effects_file,
-             "the effects found, for navcal simulate --effects");
+  add_repeatable(command, "--nominal", "FILE", options->nominals);
+  command->add_flag("--steady", options->is_steady);
+  add_valued(command, "--json", "FILE|-", options->json);
+  add_valued(command, "--report", "FILE.html", options->report);
+  add_valued(command, "--effects-out", "FILE.toml", source.effects_file);
   add_export_options(command, options->exports);
   add_gap_next(*command);
   add_gap_watch(*command);

@@ -85,17 +85,13 @@ void add_gap_next(CLI::App& gap) {
   auto* command = gap.add_subcommand("next", "plans the mission that tells best what a diagnosis leaves open");
   const auto options = std::make_shared<GapNextOptions>();
   add_gap_request(*command, options->asked);
-  command->add_option("--minutes", options->minutes, "longest duration of the mission; default: 10")
-      ->check(CLI::Range(1.0, 120.0));
-  add_valued(command, "--limits", "FILE.toml", options->limits,
-             "limits of depth, range, speed, rate of turn and energy");
-  command->add_flag("--list-limits", options->list_limits, "prints a file of limits with the defaults");
-  add_valued(command, "--mission-out", "FILE.toml", options->mission,
-             "the mission, for navcal simulate, emulate and pilot");
-  command->add_flag("--overwrite", options->overwrite, "replaces a mission file that is there already");
-  add_valued(command, "--json", "FILE|-", options->json,
-             "the plan as one JSON object; - is standard output, without text");
-  add_valued(command, "--report", "FILE.html", options->report, "page with pictures; needs no other file");
+  command->add_option("--minutes", options->minutes)->check(CLI::Range(1.0, 120.0));
+  add_valued(command, "--limits", "FILE.toml", options->limits);
+  command->add_flag("--list-limits", options->list_limits);
+  add_valued(command, "--mission-out", "FILE.toml", options->mission);
+  command->add_flag("--overwrite", options->overwrite);
+  add_valued(command, "--json", "FILE|-", options->json);
+  add_valued(command, "--report", "FILE.html", options->report);
   command->callback([options] {
     if (options->list_limits) {
       std::fputs(config::mission_limits_file({}).c_str(), stdout);

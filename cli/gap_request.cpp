@@ -48,32 +48,21 @@ gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout)
 
 void add_gap_request(CLI::App& command, GapRequestOptions& options) {
   auto& source = options.source;
-  command.add_option("FILE", source.missions,
-                     "the mission to be diagnosed: a capture (.cap) or a log (.mcap); several of one vehicle are "
-                     "diagnosed together");
+  command.add_option("FILE", source.missions);
   add_window(command, options,
              command.get_name() == "gap"
                  ? ". Without FILE: a diagnosis that --json wrote, for --export and --effects-out"
                  : "");
-  add_repeatable(&command, "--holdout", "FILE", source.holdouts,
-                 "another mission of the same vehicle, on which the answer is judged; repeatable");
-  add_valued(&command, "--vehicle", "FILE.toml", source.vehicle,
-             "the nominal vehicle, if it is not the reference vehicle: a vehicle file or a layout");
-  add_valued(&command, "--config", "FILE.toml", source.config,
-             "configuration of all recordings, instead of their own: ports and instruments");
-  add_valued(
-      &command, "--field", "N,E,D", options.where.field,
-      "the Earth's field in uT (north, east, down), instead of the World Magnetic Model's where the fixes are");
-  add_repeatable(&command, "--exclude", "NAME", source.excluded,
-                 "removes this effect from the library; repeatable");
-  add_repeatable(&command, "--without", "NAME", options.without,
-                 "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, "
-                 "card, gyros, accelerometers, depth, gps or motor; repeatable");
+  add_repeatable(&command, "--holdout", "FILE", source.holdouts);
+  add_valued(&command, "--vehicle", "FILE.toml", source.vehicle);
+  add_valued(&command, "--config", "FILE.toml", source.config);
+  add_valued(&command, "--field", "N,E,D", options.where.field);
+  add_repeatable(&command, "--exclude", "NAME", source.excluded);
+  add_repeatable(&command, "--without", "NAME", options.without);
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  add_number(&command, "--bank", gap::kLeastNulls, gap::kMostNulls, options.bank_missions, "so many")->group(bank);
-  add_defaulted(&command, "--seed", options.bank_seed, "seed of their noise and tolerances")->group(bank);
-  add_valued(&command, "--cache", "DIR", options.cache, "folder in which they are kept; default: ~/.cache/navcal")
-      ->group(bank);
+  add_number(&command, "--bank", gap::kLeastNulls, gap::kMostNulls, options.bank_missions)->group(bank);
+  add_defaulted(&command, "--seed", options.bank_seed)->group(bank);
+  add_valued(&command, "--cache", "DIR", options.cache)->group(bank);
 }
 
 }  // namespace navcal::cli

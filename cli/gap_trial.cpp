@@ -194,57 +194,28 @@ void add_gap_trial(CLI::App& gap) {
   auto* command = gap.add_subcommand("trial", "blind validation of the diagnosis on withheld effects");
   const auto options = std::make_shared<GapTrialCommandOptions>();
   auto& asking = options->asking;
-  add_valued(command, "--cases", "N", options->cases, "number of cases; each has three missions of one vehicle")
-      ->check(CLI::Range(1, 100000));
-  command->add_flag("--active", options->active,
-                    "after each answer the vehicle sails what navcal gap next plans, and is diagnosed again; "
-                    "controls sail as many minutes of survey, and of random manoeuvres");
-  add_number(command, "--missions", 1, validation::kMostPlannedMissions, options->missions,
-             "missions that are sailed after the first one; with --active");
-  add_defaulted(command, "--seed", options->seed, "seed of effects, strengths, vehicles and noise");
-  add_valued(
-      command, "--minutes", "M", options->minutes,
-      "length of a mission, unless the arm has its own: 3 or 10, default 10; with --layout 0.75 to 60, default 3")
-      ->check(CLI::Range(0.75, 60.0));
-  add_number(command, "--places", 1, 100000, options->places,
-             "number of places, dates and waters that are drawn, one of them for each case; null missions serve "
-             "one place each");
+  add_valued(command, "--cases", "N", options->cases)->check(CLI::Range(1, 100000));
+  command->add_flag("--active", options->active);
+  add_number(command, "--missions", 1, validation::kMostPlannedMissions, options->missions);
+  add_defaulted(command, "--seed", options->seed);
+  add_valued(command, "--minutes", "M", options->minutes)->check(CLI::Range(0.75, 60.0));
+  add_number(command, "--places", 1, 100000, options->places);
   auto& on = options->on_layouts;
-  add_repeatable(command, "--layout", "FILE.toml", options->layouts,
-                 "instead of the reference vehicle, vehicles by this layout, whose actuators are thrusters, up to "
-                 "eight; repeatable, vehicles take them by turns")
-      ->excludes("--places");
-  add_number(command, "--vehicles", 1, 1000, on.vehicles, "number of vehicles; with --layout, like the next three")
-      ->needs("--layout");
-  add_number(command, "--nominal", 1, 100, on.nominal,
-             "recordings without an effect, of each vehicle, by which it is identified")
-      ->needs("--layout");
-  add_number(command, "--layout-error", 0.0, 0.2, on.layout_error,
-             "how far the vehicles are off their layouts, one standard deviation")
-      ->needs("--layout");
-  add_number(command, "--unmodelled", 0.0, 10.0, on.unmodelled,
-             "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell")
-      ->needs("--layout");
-  add_valued(command, "--arms", "LIST", options->arms,
-             "only these arms: nulls, singles, pairs, triples, short, removed, ...")
-      ->delimiter(',');
-  add_valued(command, "--only", "CASE", options->only, "only these cases, by number")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  add_number(command, "--jobs", 1, 256, asking.jobs, "number of cases at a time; one diagnosis uses all cores");
-  add_valued(command, "--bank", "N", asking.bank_missions,
-             "number of null missions of the diagnosis; default: that of navcal gap")
-      ->check(CLI::Range(gap::kLeastNulls, gap::kMostNulls));
-  add_valued(command, "--without", "LIST", asking.without,
-             "instruments that the diagnosis has to do without: those of navcal gap --without")
-      ->delimiter(',');
-  add_number(command, "--timeout", 1, 86400, options->timeout_s, "time limit of a diagnosis, seconds");
-  add_valued(command, "--json", "FILE|-", options->json, "all cases, truths and scores; - is standard output");
-  add_valued(command, "--report", "FILE.html", options->report,
-             "page with scores and pictures; needs no other file");
-  add_valued(command, "--keep", "DIR", asking.keep,
-             "keeps recordings and answers in this folder, one subfolder for each case");
-  command->add_option("--program", asking.program, "the program that diagnoses")->group("");
+  add_repeatable(command, "--layout", "FILE.toml", options->layouts)->excludes("--places");
+  add_number(command, "--vehicles", 1, 1000, on.vehicles)->needs("--layout");
+  add_number(command, "--nominal", 1, 100, on.nominal)->needs("--layout");
+  add_number(command, "--layout-error", 0.0, 0.2, on.layout_error)->needs("--layout");
+  add_number(command, "--unmodelled", 0.0, 10.0, on.unmodelled)->needs("--layout");
+  add_valued(command, "--arms", "LIST", options->arms)->delimiter(',');
+  add_valued(command, "--only", "CASE", options->only)->delimiter(',')->check(CLI::PositiveNumber);
+  add_number(command, "--jobs", 1, 256, asking.jobs);
+  add_valued(command, "--bank", "N", asking.bank_missions)->check(CLI::Range(gap::kLeastNulls, gap::kMostNulls));
+  add_valued(command, "--without", "LIST", asking.without)->delimiter(',');
+  add_number(command, "--timeout", 1, 86400, options->timeout_s);
+  add_valued(command, "--json", "FILE|-", options->json);
+  add_valued(command, "--report", "FILE.html", options->report);
+  add_valued(command, "--keep", "DIR", asking.keep);
+  command->add_option("--program", asking.program)->group("");
   command->callback([options] { run(*options); });
 }
 

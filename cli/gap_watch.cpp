@@ -260,28 +260,21 @@ void add_gap_watch(CLI::App& gap) {
   auto* command =
       gap.add_subcommand("watch", "judges a mission while it is sailed: alarm, place and cause of a gap");
   const auto options = std::make_shared<GapWatchOptions>();
-  add_defaulted(command, "--host", options->host, "host of navcald");
-  add_number(command, "--port", 1, 65535, options->port, "its status port");
-  add_valued(command, "--vehicle", "FILE.toml", options->vehicle,
-             "the identified vehicle; default: the reference vehicle");
-  add_valued(command, "--config", "FILE.toml", options->config,
-             "configuration of navcald, for the noise of its instruments");
-  add_valued(command, "--recording", "FILE", options->recording,
-             "a capture or log, as if it came now, instead of navcald");
+  add_defaulted(command, "--host", options->host);
+  add_number(command, "--port", 1, 65535, options->port);
+  add_valued(command, "--vehicle", "FILE.toml", options->vehicle);
+  add_valued(command, "--config", "FILE.toml", options->config);
+  add_valued(command, "--recording", "FILE", options->recording);
   add_place_and_field(command, options->where);
-  add_valued(command, "--cache", "DIR", options->cache, "folder of null banks; default: ~/.cache/navcal");
-  add_number(command, "--false-alarms-per-hour", 1e-9, 1.0, options->false_alarms_per_h,
-             "at most so many, on average");
-  add_valued(command, "--state", "FILE.json", options->state,
-             "what was seen so far; read at the start, written after each event");
-  add_valued(command, "--metrics", "FILE.prom", options->metrics, "numbers for Prometheus' textfile collector");
-  add_number(command, "--status-minutes", 0.0, 1440.0, options->status_min, "time between two status events");
+  add_valued(command, "--cache", "DIR", options->cache);
+  add_number(command, "--false-alarms-per-hour", 1e-9, 1.0, options->false_alarms_per_h);
+  add_valued(command, "--state", "FILE.json", options->state);
+  add_valued(command, "--metrics", "FILE.prom", options->metrics);
+  add_number(command, "--status-minutes", 0.0, 1440.0, options->status_min);
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  add_number(command, "--bank", 12, gap::kMostNulls, options->bank_missions, "number of null missions")
-      ->group(bank);
-  add_defaulted(command, "--seed", options->bank_seed, "seed of their noise and tolerances")->group(bank);
-  command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
+  add_number(command, "--bank", 12, gap::kMostNulls, options->bank_missions)->group(bank);
+  add_defaulted(command, "--seed", options->bank_seed)->group(bank);
+  command->add_option("--seconds", options->seconds)->check(CLI::NonNegativeNumber);
   command->callback([options] { with_exit_statuses([&] { watch_gap(*options); }); });
 }
 

@@ -65,25 +65,16 @@ void add_identify(CLI::App& app) {
   auto* command = app.add_subcommand(
       "identify", "parameters of a vehicle's layout, with standard errors, from recordings and their commands");
   const auto options = std::make_shared<IdentifyCommandOptions>();
-  command->add_option("FILE", options->files, "recordings of the vehicle without faults: captures or logs")
-      ->required();
-  add_valued(command, "--vehicle", "PRIOR.toml", options->vehicle,
-             "layout with the data sheet's numbers; those with KEY_std or KEY_range are fitted")
-      ->required();
-  add_repeatable(command, "--holdout", "FILE", options->held_out,
-                 "another recording of the vehicle, on which the fit is judged; repeatable");
-  add_valued(command, "-o,--output", "VEHICLE.toml", options->output,
-             "layout to write: fitted numbers with their standard errors")
-      ->required();
-  add_valued(command, "--json", "FILE|-", options->json,
-             "the answer as one JSON object; - is standard output, without text");
-  add_valued(command, "--report", "FILE.html", options->report, "page with a picture; needs no other file");
-  add_valued(command, "--config", "FILE.toml", options->config,
-             "configuration of all recordings, instead of their own");
+  command->add_option("FILE", options->files)->required();
+  add_valued(command, "--vehicle", "PRIOR.toml", options->vehicle)->required();
+  add_repeatable(command, "--holdout", "FILE", options->held_out);
+  add_valued(command, "-o,--output", "VEHICLE.toml", options->output)->required();
+  add_valued(command, "--json", "FILE|-", options->json);
+  add_valued(command, "--report", "FILE.html", options->report);
+  add_valued(command, "--config", "FILE.toml", options->config);
   add_window(*command, *options);
-  command->add_flag("--no-advice", options->no_advice, "do not look for manoeuvres that would tell more");
-  command->add_flag("--force", options->force,
-                    "write the layout even where it is worse on the held-out recordings than the file's numbers");
+  command->add_flag("--no-advice", options->no_advice);
+  command->add_flag("--force", options->force);
   command->callback([options] { run_identify(*options); });
 }
 

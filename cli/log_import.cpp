@@ -60,26 +60,19 @@ void add_log_import(CLI::App& log) {
   const auto arguments = std::make_shared<ImportArguments>();
   auto* const in =
       log.add_subcommand("import", "a log of a capture's or a device's bytes, or of a log of another system");
-  in->add_option("FILE", arguments->file,
-                 "capture (.cap), bytes of a device, or a log of another system, known by its content")
-      ->required();
-  add_valued(in, "-o,--output", "FILE.mcap", arguments->to, "the log")->required();
+  in->add_option("FILE", arguments->file)->required();
+  add_valued(in, "-o,--output", "FILE.mcap", arguments->to)->required();
   add_valued(in, "--format", "NAME", arguments->options.format,
              "read the file as this: " + analysis::import_format_names());
   std::vector<std::string> devices;
   for (const auto& device : protocols::kDeviceTypes) {
     if (device.protocol != protocols::Protocol::described) devices.emplace_back(device.name);
   }
-  add_valued(in, "--driver", "NAME", arguments->driver,
-             "the file has the bytes of such a device; .nmea and .ubx are known by name and content")
-      ->check(CLI::IsMember(devices));
-  in->add_option("--baud", arguments->baud, "speed of the line that these bytes came on, default as delivered")
-      ->check(CLI::Range(50, 4'000'000));
-  add_valued(in, "--map", "FILE.toml", arguments->options.map,
-             "meaning of the columns of a CSV file, or of the outputs of another log: shaft and fins");
-  add_valued(in, "--cache", "DIR", arguments->options.folders,
-             "where a Slocum's lists of sensors (.cac) are, if not beside FILE");
-  in->add_flag("--json", arguments->json, "one JSON object instead of a table, for a log of another system");
+  add_valued(in, "--driver", "NAME", arguments->driver)->check(CLI::IsMember(devices));
+  in->add_option("--baud", arguments->baud)->check(CLI::Range(50, 4'000'000));
+  add_valued(in, "--map", "FILE.toml", arguments->options.map);
+  add_valued(in, "--cache", "DIR", arguments->options.folders);
+  in->add_flag("--json", arguments->json);
   in->callback([arguments] { import_file(*arguments); });
 }
 

@@ -44,12 +44,10 @@ void add_log_surfacings(CLI::App& log) {
   const auto options = std::make_shared<SurfacingsOptions>();
   auto* const command = log.add_subcommand(
       "surfacings", "time to first fix and error of the dead reckoning at each surfacing of recordings");
-  command
-      ->add_option("FILE", options->files, "logs (.mcap) or captures (.cap); several of one series in their order")
-      ->required();
-  command->add_flag("--json", options->json, "one JSON object instead of a table");
-  add_valued(command, "--report", "FILE.html", options->page, "page with the distributions and plots");
-  add_valued(command, "--config", "FILE", options->config, "configuration to use instead of the recording's own");
+  command->add_option("FILE", options->files)->required();
+  command->add_flag("--json", options->json);
+  add_valued(command, "--report", "FILE.html", options->page);
+  add_valued(command, "--config", "FILE", options->config);
   command->callback([options] { with_exit_statuses([&] { show_surfacings(*options); }); });
 }
 

@@ -49,16 +49,13 @@ void add_noise(CLI::App& app) {
   auto options = std::make_shared<NoiseCommandOptions>();
   auto* command = app.add_subcommand(
       "noise", "noise of each channel of a recording at rest: Allan deviation, spectrum, resolution");
-  command->add_option("FILE", options->request.file, "log (.mcap) or capture (.cap)")->required();
-  add_valued(command, "--config", "FILE.toml", options->config,
-             "configuration to use instead of the recording's own");
-  add_valued(command, "--from", "S", options->request.from_s,
-             "begin of the part to use, from the beginning of the recording; default: all parts at rest");
-  add_valued(command, "--to", "S", options->request.to_s, "end of that part");
-  command->add_flag("--json", options->json, "one JSON object instead of a table");
-  add_valued(command, "--report", "FILE.html", options->page, "page to write, with pictures; needs no other file");
-  add_valued(command, "--write", "FILE.toml", options->write,
-             "configuration to write, with the noise in [instruments]; an existing file is not overwritten");
+  command->add_option("FILE", options->request.file)->required();
+  add_valued(command, "--config", "FILE.toml", options->config);
+  add_valued(command, "--from", "S", options->request.from_s);
+  add_valued(command, "--to", "S", options->request.to_s);
+  command->add_flag("--json", options->json);
+  add_valued(command, "--report", "FILE.html", options->page);
+  add_valued(command, "--write", "FILE.toml", options->write);
   command->callback([options] { find_noise(*options); });
 }
 

@@ -103,11 +103,9 @@ void replay(const ReplayCommandOptions& options) {
 void add_replay(CLI::App& app) {
   auto options = std::make_shared<ReplayCommandOptions>();
   auto* command = app.add_subcommand("replay", "runs a recording through the pipeline: one JSON line a sample");
-  command
-      ->add_option("FILE", options->files, "log (.mcap) or capture (.cap); several of one series in their order")
-      ->required();
-  command->add_option("--config", options->config, "configuration to use instead of the recording's own");
-  command->add_flag("--json", options->json, "JSON lines (this is the default)");
+  command->add_option("FILE", options->files)->required();
+  command->add_option("--config", options->config);
+  command->add_flag("--json", options->json);
   command->callback([options] { replay(*options); });
 }
 

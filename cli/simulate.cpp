@@ -82,33 +82,22 @@ void add_simulate(CLI::App& app) {
   const auto options = std::make_shared<SimulateCommandOptions>();
   auto& arguments = options->arguments;
   const auto* const motion = "Motion of the vehicle (one of these)";
-  add_valued(command, "--path", "CSV", arguments.path,
-             "moved along a path: t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3")
-      ->group(motion);
-  add_valued(command, "--drive", "CSV", arguments.drive,
-             "driven by the shaft speed and the fins of such a file, from the state in its first row")
-      ->group(motion);
-  add_valued(command, "--mission", "NAME|FILE", arguments.mission, "autopiloted mission: a shipped one, or a file")
-      ->group(motion);
-  add_valued(command, "--vehicle", "FILE.toml", arguments.vehicle,
-             "the vehicle, if it is not the reference vehicle: a vehicle file, or a layout (navcal vehicle)");
-  add_valued(command, "--config", "FILE.toml", arguments.config,
-             "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments");
-  command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
-      ->check(CLI::Range(0.01, 1e6));
+  add_valued(command, "--path", "CSV", arguments.path)->group(motion);
+  add_valued(command, "--drive", "CSV", arguments.drive)->group(motion);
+  add_valued(command, "--mission", "NAME|FILE", arguments.mission)->group(motion);
+  add_valued(command, "--vehicle", "FILE.toml", arguments.vehicle);
+  add_valued(command, "--config", "FILE.toml", arguments.config);
+  command->add_option("--seconds", arguments.seconds)->check(CLI::Range(0.01, 1e6));
   add_effect_options(command, arguments.effects, arguments.effects_file);
   add_clock_option(command, arguments.clocks);
   add_place_and_field(command, arguments.where);
-  add_valued(command, "--date", "YYYY-MM-DD", arguments.where.date,
-             "day on which the mission begins, at 00:00 UTC");
-  add_defaulted(command, "--seed", arguments.seed, "seed of noise, biases and directions");
-  command->add_flag("--no-noise", arguments.no_noise, "instruments without noise; resolution and latency stay");
-  add_valued(command, "-o,--output", "FILE.cap", arguments.capture, "the recording");
-  add_valued(command, "--truth", "FILE.csv", arguments.truth,
-             "the true motion, with the columns of --path, 100 rows a second");
-  add_valued(command, "--report", "FILE.html", arguments.report, "page with pictures; needs no other file");
-  command->add_flag("--list-effects", options->list_effects,
-                    "all effects with equation, parameters, typical strength");
+  add_valued(command, "--date", "YYYY-MM-DD", arguments.where.date);
+  add_defaulted(command, "--seed", arguments.seed);
+  command->add_flag("--no-noise", arguments.no_noise);
+  add_valued(command, "-o,--output", "FILE.cap", arguments.capture);
+  add_valued(command, "--truth", "FILE.csv", arguments.truth);
+  add_valued(command, "--report", "FILE.html", arguments.report);
+  command->add_flag("--list-effects", options->list_effects);
   command->callback([options] { simulate(*options); });
 }
 

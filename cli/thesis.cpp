@@ -44,20 +44,11 @@ void add_thesis(CLI::App& app) {
   const auto options = std::make_shared<ThesisCommandOptions>();
   auto* const command = app.add_subcommand(
       "thesis", "tables and figures of the thesis of 2003 recomputed: thesis, navcal, Cramer-Rao bound");
-  command->add_option("--report", options->page, "page to write, with pictures; needs no other file")
-      ->option_text("FILE.html");
-  command->add_option("--json", options->json, "the same numbers as one JSON object; - is standard output")
-      ->option_text("FILE|-");
-  command->add_option("--runs", options->request.runs, "runs with noise for each path and method")
-      ->check(CLI::Range(2, 100'000))
-      ->capture_default_str();
-  command->add_option("--seed", options->request.seed, "seed of the noise; the same seed gives the same numbers")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--paths", options->request.folder,
-                   "folder with path1.csv to path8.csv at 10 Hz; default: the installed paths")
-      ->option_text("DIR");
+  command->add_option("--report", options->page)->option_text("FILE.html");
+  command->add_option("--json", options->json)->option_text("FILE|-");
+  command->add_option("--runs", options->request.runs)->check(CLI::Range(2, 100'000))->capture_default_str();
+  command->add_option("--seed", options->request.seed)->check(CLI::NonNegativeNumber)->capture_default_str();
+  command->add_option("--paths", options->request.folder)->option_text("DIR");
   command->callback([options] { recompute_thesis(*options); });
 }
 

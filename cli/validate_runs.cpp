@@ -211,18 +211,12 @@ void add_validate_runs(CLI::App& app) {
   auto arguments = std::make_shared<ValidateRunsArguments>();
   auto* command =
       app.add_subcommand("validate-runs", "causes of short runs of a thruster vehicle, from nominal runs");
-  add_valued(command, "--nominal", "DIR", arguments->nominal,
-             "folder of nominal runs (.csv), which tell the nominal vehicle")
-      ->required();
-  add_valued(command, "--runs", "DIR", arguments->runs, "folder of the runs to diagnose (.csv)")->required();
-  add_valued(command, "--pools", "FILE.json", arguments->pools,
-             "runs to diagnose together, each pool of one session: {\"p001\": [\"r0001\", ...]}");
-  add_valued(command, "--removed", "NAME", arguments->removed, "effect to take out of the library");
-  add_valued(command, "--sessions", "FILE.json", arguments->sessions,
-             "file to be written: the sessions found among the nominal runs, in the form of pools");
-  add_valued(command, "--json", "FILE", arguments->json,
-             "answers to be written, one JSON object a line; - is standard output")
-      ->required();
+  add_valued(command, "--nominal", "DIR", arguments->nominal)->required();
+  add_valued(command, "--runs", "DIR", arguments->runs)->required();
+  add_valued(command, "--pools", "FILE.json", arguments->pools);
+  add_valued(command, "--removed", "NAME", arguments->removed);
+  add_valued(command, "--sessions", "FILE.json", arguments->sessions);
+  add_valued(command, "--json", "FILE", arguments->json)->required();
   command->callback([arguments] { validate_runs(*arguments); });
 }
 

@@ -104,11 +104,10 @@ void convert_vehicle(const VehicleConvertArguments& arguments) {
 void add_vehicle_check(CLI::App& vehicle) {
   const auto arguments = std::make_shared<VehicleCheckArguments>();
   auto* const command = vehicle.add_subcommand("check", "What a layout amounts to, and what is odd about it");
-  command->add_option("LAYOUT", arguments->layout, "Layout of a vehicle (.toml)")->required();
-  command->add_option("FILE", arguments->files, "Recordings with commands, to be checked for wrong conventions");
-  add_valued(command, "--config", "FILE.toml", arguments->config,
-             "Configuration of all recordings, instead of their own");
-  command->add_flag("--json", arguments->json, "One JSON object");
+  command->add_option("LAYOUT", arguments->layout)->required();
+  command->add_option("FILE", arguments->files);
+  add_valued(command, "--config", "FILE.toml", arguments->config);
+  command->add_flag("--json", arguments->json);
   command->callback([arguments] { check_layout(*arguments); });
 }
 
@@ -116,15 +115,12 @@ void add_vehicle_predict(CLI::App& vehicle) {
   const auto arguments = std::make_shared<VehiclePredictArguments>();
   auto* const command =
       vehicle.add_subcommand("predict", "How well a layout predicts recorded motion, beside the simplest methods");
-  command->add_option("LAYOUT", arguments->layout, "Layout of the vehicle (.toml)")->required();
-  command->add_option("FILE", arguments->files, "Recordings with commands: captures or logs")->required();
-  add_repeatable(command, "--fit", "TRAIN", arguments->fit,
-                 "Recording to which the regressions are fitted; repeatable");
-  add_number(command, "--every", 0.1, 3600.0, arguments->every_s, "Time between starts, s");
-  add_valued(command, "--json", "FILE|-", arguments->json,
-             "The answer as one JSON object; - is standard output, without text");
-  add_valued(command, "--config", "FILE.toml", arguments->config,
-             "Configuration of all recordings, instead of their own");
+  command->add_option("LAYOUT", arguments->layout)->required();
+  command->add_option("FILE", arguments->files)->required();
+  add_repeatable(command, "--fit", "TRAIN", arguments->fit);
+  add_number(command, "--every", 0.1, 3600.0, arguments->every_s);
+  add_valued(command, "--json", "FILE|-", arguments->json);
+  add_valued(command, "--config", "FILE.toml", arguments->config);
   command->callback([arguments] { predict_vehicle(*arguments); });
 }
 
@@ -132,10 +128,8 @@ void add_vehicle_convert(CLI::App& vehicle) {
   const auto arguments = std::make_shared<VehicleConvertArguments>();
   auto* const command =
       vehicle.add_subcommand("convert", "Write the vehicle file of one propeller and three fins as a layout");
-  command->add_option("VEHICLE", arguments->vehicle, "Vehicle file, as navcal simulate --vehicle takes it (.toml)")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "Layout to be written. Default: standard output")
-      ->type_name("LAYOUT.toml");
+  command->add_option("VEHICLE", arguments->vehicle)->required();
+  command->add_option("-o,--output", arguments->output)->type_name("LAYOUT.toml");
   command->callback([arguments] { convert_vehicle(*arguments); });
 }
 

@@ -85,14 +85,10 @@ void view(const ViewArguments& arguments) {
 void add_view(CLI::App& app) {
   auto* const command = app.add_subcommand("view", "show a recording in the browser");
   const auto arguments = std::make_shared<ViewArguments>();
-  command
-      ->add_option("FILE", arguments->file,
-                   "log (.mcap), capture (.cap), or a log of another system that `navcal log import` knows")
-      ->required();
-  add_defaulted(command, "--port", arguments->port, "TCP port of the loopback address; 0: one that is free");
-  add_number(command, "--speed", 0.001, 1e6, arguments->speed,
-             "factor of the speed over the recorded one; the page changes it");
-  command->add_flag("--no-open", arguments->no_open, "print the address and open no browser");
+  command->add_option("FILE", arguments->file)->required();
+  add_defaulted(command, "--port", arguments->port);
+  add_number(command, "--speed", 0.001, 1e6, arguments->speed);
+  command->add_flag("--no-open", arguments->no_open);
   command->callback([arguments] { view(*arguments); });
 }
 

@@ -69,8 +69,10 @@ void add_ports_send_calibration(CLI::App& ports);
 /// Stands for a command that is not in this program, and says how to get it.
 void add_left_out(CLI::App& parent, const std::string& name);
 
-/// Gives each command the words below the options of its help: a section "== navcal log fetch" of footers.txt.
-void set_footers(CLI::App& app);
+/// Gives options without a description theirs, and each command the words below its options, by command_help.txt:
+/// a section "== navcal log fetch" has a row "@--to folder for the logs" for each option, then the words. "==
+/// navcal *" is of all commands.
+void set_help(CLI::App& app);
 
 /// All of them, with their words (written by cli/live/command_table.cmake).
 void add_commands(CLI::App& parent);

@@ -78,7 +78,7 @@ complete -o filenames -F _navcal navcal
 void add_completion(CLI::App& app) {
   auto* command = app.add_subcommand("completion", "a script that completes navcal's commands in a shell");
   const auto shell = std::make_shared<std::string>();
-  command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+  command->add_option("SHELL", *shell)->required()->check(CLI::IsMember({"bash", "zsh"}));
   command->callback([&app, shell] {
     const bool zsh = *shell == "zsh";
     // zsh runs what is written for bash. The first line makes it a file for zsh's own folders of completions.

@@ -61,11 +61,9 @@ void add_doctor(CLI::App& app) {
   auto* command =
       app.add_subcommand("doctor", "checks this machine for obstacles to good data, and names the repairs");
   const auto arguments = std::make_shared<Arguments>();
-  add_defaulted(command, "--config", arguments->configuration, "the daemon's configuration")->type_name("FILE");
-  command->add_flag("--json", arguments->json, "one object with all checks");
-  command->add_flag(
-      "--fix", arguments->fix,
-      "let the service write to a log folder on another file system: as root, a drop-in of its unit");
+  add_defaulted(command, "--config", arguments->configuration)->type_name("FILE");
+  command->add_flag("--json", arguments->json);
+  command->add_flag("--fix", arguments->fix);
   command->callback([arguments] { run(*arguments); });
 }
 

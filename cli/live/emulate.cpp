@@ -188,38 +188,26 @@ void add_vehicle(CLI::App* command, emulation::EmulateArguments& arguments) {
           "the reference vehicle. A layout obeys the lines $PNCAO at DIR/outputs instead of a motor card")
       ->expected(0, 1)
       ->option_text("[FILE.toml]");
-  add_valued(command, "--battery", "AH", arguments.battery_Ah,
-             "a battery of 3.7 Ah with this charge at first; its gauge sends NMEA sentences at DIR/battery")
-      ->check(CLI::Range(0.0, 3.7));
+  add_valued(command, "--battery", "AH", arguments.battery_Ah)->check(CLI::Range(0.0, 3.7));
   CLI::Option* const floor =
-      add_valued(command, "--floor-depth", "METRES", arguments.floor_depth_m,
-                 "depth of a sea floor, also for Doppler logs; an altimeter sends NMEA sentences at\n"
-                 "DIR/altimeter. Without it Doppler logs have a floor at 20 m")
-          ->check(CLI::Range(0.0, 11000.0));
-  add_valued(command, "--floor-slope", "NORTH EAST [0 0]", arguments.floor_slope,
-             "how much deeper that floor is for each metre north and east of the start")
+      add_valued(command, "--floor-depth", "METRES", arguments.floor_depth_m)->check(CLI::Range(0.0, 11000.0));
+  add_valued(command, "--floor-slope", "NORTH EAST [0 0]", arguments.floor_slope)
       ->expected(2)
       ->check(CLI::Range(-10.0, 10.0))
       ->needs(floor);
-  add_valued(command, "--truth", "FILE.csv", arguments.truth,
-             "the true motion, 100 rows a second; complete when it ends");
+  add_valued(command, "--truth", "FILE.csv", arguments.truth);
 }
 
 void add_departures(CLI::App* command, emulation::EmulateArguments& arguments) {
   add_effect_options(command, arguments.effects, arguments.effects_file);
-  add_valued(command, "--config", "FILE.toml", arguments.config,
-             "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments");
-  command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
+  add_valued(command, "--config", "FILE.toml", arguments.config);
+  command->add_flag("--no-noise", arguments.no_noise);
 }
 
 void add_misbehaviour(CLI::App* command, emulation::EmulateArguments& arguments) {
   const auto* const misbehaviour = "Misbehaviour";
-  command->add_option("--noise", arguments.noise, "probability of a flipped bit in a frame or garbage before it")
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(misbehaviour);
-  command->add_option("--drop", arguments.drop, "probability that a frame is lost")
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(misbehaviour);
+  command->add_option("--noise", arguments.noise)->check(CLI::Range(0.0, 1.0))->group(misbehaviour);
+  command->add_option("--drop", arguments.drop)->check(CLI::Range(0.0, 1.0))->group(misbehaviour);
   add_plans(command, "--stall", arguments.stalls, &emulation::parse_stall,
             "SECONDS@EVERY: all bytes are held back for SECONDS and then delivered at once, repeated every EVERY "
             "seconds");
@@ -251,38 +239,29 @@ void add_emulate(CLI::App& app) {
   const std::map<std::string, sim::Oncore::Kind> receivers{{"ha", sim::Oncore::Kind::twelve_channels},
                                                            {"ea", sim::Oncore::Kind::eight_channels},
                                                            {"nmea", sim::Oncore::Kind::nmea}};
-  command->add_option("--dir", arguments->dir, "folder for the ports; created if missing")->required();
-  command->add_option(
-      "--path", arguments->path,
-      "CSV (t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3) along which the vehicle moves. A path\n"
-      "that ends at its beginning is repeated; after any other the last turn and speed continue. Default:\n"
-      "two and a half minutes of legs, circles and a dive, repeated");
+  command->add_option("--dir", arguments->dir)->required();
+  command->add_option("--path", arguments->path);
   command
       ->add_option("--mission", arguments->mission,
                    "an autopiloted mission, repeated at its end: " + mission_names() + ", or a TOML file")
       ->excludes(command->get_option("--path"));
   add_vehicle(command, *arguments);
   add_departures(command, *arguments);
-  command->add_option("--seconds", arguments->seconds, "stop after this time; 0: never")
-      ->check(CLI::Range(0.0, 1e9));
-  add_defaulted(command, "--seed", arguments->seed, "seed of all noise and biases");
-  add_valued(command, "--gps", "ea|ha|nmea", arguments->gps,
-             "messages of the receiver: ha (Ha and Ea), ea (Ea only), or nmea sentences")
+  command->add_option("--seconds", arguments->seconds)->check(CLI::Range(0.0, 1e9));
+  add_defaulted(command, "--seed", arguments->seed);
+  add_valued(command, "--gps", "ea|ha|nmea", arguments->gps)
       ->transform(
           CLI::CheckedTransformer(receivers));  // the library would print the enumeration's values, as characters
   add_plans(command, "--device", arguments->devices, &emulation::parse_emulated_device,
             "PORT=PROTOCOL: a device of this protocol, as delivered, at DIR/PORT, in the place of the vehicle's\n"
             "own or beside them: " +
                 protocol_names() + "; repeatable");
-  add_defaulted(command, "--compass-baud", arguments->compass_baud, "line speed of the compass");
-  command
-      ->add_option("--imu-ppm", arguments->imu_ppm,
-                   "excess length of the card's second, ppm (default: drawn by the seed)")
-      ->check(CLI::Range(-1e4, 1e4));
+  add_defaulted(command, "--compass-baud", arguments->compass_baud);
+  command->add_option("--imu-ppm", arguments->imu_ppm)->check(CLI::Range(-1e4, 1e4));
   add_clock_option(command, arguments->clocks);
   add_place_and_field(command, arguments->where);
-  add_valued(command, "--date", "YYYY-MM-DD", arguments->where.date, "date for the field model; default: today");
-  command->add_option("--sent-log", arguments->sent_log, "capture of all bytes on the lines, in both directions");
+  add_valued(command, "--date", "YYYY-MM-DD", arguments->where.date);
+  command->add_option("--sent-log", arguments->sent_log);
   add_misbehaviour(command, *arguments);
   command->footer(
       fmt::format("The instruments answer commands and send at the rate of their lines; unread bytes are lost. "

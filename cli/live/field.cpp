@@ -52,11 +52,9 @@ void add_field(CLI::App& app) {
   const auto options = std::make_shared<FieldCommandOptions>();
   auto* const command =
       app.add_subcommand("field", "Earth's magnetic field at a place, as lines for navcald.toml");
-  add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", options->where.place,
-             "degrees north and east, and metres above the ellipsoid")
-      ->required();
-  add_valued(command, "--date", "YYYY-MM-DD", options->where.date, "date; default: today");
-  command->add_flag("--json", options->json, "one JSON object instead of lines for the configuration");
+  add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", options->where.place)->required();
+  add_valued(command, "--date", "YYYY-MM-DD", options->where.date);
+  command->add_flag("--json", options->json);
   command->callback([options] { show_field(*options); });
 }
 

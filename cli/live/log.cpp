@@ -63,16 +63,16 @@ void add_log(CLI::App& app) {
 
   auto* const info =
       log->add_subcommand("info", "ports, duration, messages, gaps, events and damage of a log or capture");
-  info->add_option("FILE", options->file, "log (.mcap) or capture (.cap)")->required();
-  info->add_flag("--json", options->json, "one JSON object instead of text");
+  info->add_option("FILE", options->file)->required();
+  info->add_flag("--json", options->json);
   info->callback([options] { show_info(options->file, options->json); });
 
   auto* const end = log->add_subcommand("finish", "write the index of an unfinished log; it becomes read-only");
-  end->add_option("FILE", options->file, "log (.mcap)")->required();
+  end->add_option("FILE", options->file)->required();
   end->callback([options] { finish(options->file); });
 
   auto* const out = log->add_subcommand("export", "export topics as tables, or the raw bytes as a capture");
-  out->add_option("FILE", options->file, "log (.mcap); with --cap also a capture")->required();
+  out->add_option("FILE", options->file)->required();
   /// One format of the export.
   struct Form {
     const char* name;

@@ -90,7 +90,7 @@ void select_log(const LogControlOptions& options) {
 
 CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name, const char* description) {
   auto* const command = log.add_subcommand(name, description);
-  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control, "navcald's control socket");
+  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control);
   return command;
 }
 
@@ -99,13 +99,12 @@ CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name
 void add_log_control(CLI::App& log) {
   const auto options = std::make_shared<LogControlOptions>();
   auto* const list = add_command(log, options, "list", "the logs of a running navcald: name, bytes, begin, end");
-  list->add_flag("--json", options->json, "one JSON array instead of text");
+  list->add_flag("--json", options->json);
   list->callback([options] { show_logs(*options); });
 
   auto* const fetch = add_command(log, options, "fetch", "downloads finished logs from a running navcald");
-  add_valued(fetch, "FILE", "NAME", options->files,
-             "names of logs; without any, all that are finished and not there yet");
-  add_valued(fetch, "--to", "DIR", options->to, "folder for the logs")->required();
+  add_valued(fetch, "FILE", "NAME", options->files);
+  add_valued(fetch, "--to", "DIR", options->to)->required();
   fetch->callback([options] { fetch_logs(*options); });
 
   add_command(log, options, "start", "begins a new log file after navcal log stop")->callback([options] {
@@ -116,11 +115,9 @@ void add_log_control(CLI::App& log) {
       ->callback([options] { order_log(*options, "log.stop"); });
 
   auto* const select = add_command(log, options, "select", "what the log of a running navcald leaves out");
-  auto* const leave_out =
-      select->add_option("--leave-out", options->leave_out,
-                         "samples, navigation, health, calibration, commands, raw or raw.PORT; may be repeated");
+  auto* const leave_out = select->add_option("--leave-out", options->leave_out);
   leave_out->option_text("PART")->take_all()->allow_extra_args(false);
-  select->add_flag("--everything", options->everything, "nothing is left out")->excludes(leave_out);
+  select->add_flag("--everything", options->everything)->excludes(leave_out);
   select->callback([options] { select_log(*options); });
 }
 

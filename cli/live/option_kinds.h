@@ -9,27 +9,27 @@ namespace navcal::cli {
 /// An option whose value the help calls `value`: "FILE.toml".
 template <class T>
 CLI::Option* add_valued(CLI::App* command, const std::string& name, const std::string& value, T& to,
-                        const std::string& help) {
+                        const std::string& help = {}) {
   return command->add_option(name, to, help)->option_text(value);
 }
 
 /// The same, given once for each value.
 template <class T>
 CLI::Option* add_repeatable(CLI::App* command, const std::string& name, const std::string& value, T& to,
-                            const std::string& help) {
+                            const std::string& help = {}) {
   return add_valued(command, name, value, to, help)->allow_extra_args(false);
 }
 
 /// An option whose default the help states.
 template <class T>
-CLI::Option* add_defaulted(CLI::App* command, const std::string& name, T& to, const std::string& help) {
+CLI::Option* add_defaulted(CLI::App* command, const std::string& name, T& to, const std::string& help = {}) {
   return command->add_option(name, to, help)->capture_default_str();
 }
 
 /// The same for a number within bounds.
 template <class Bound, class T>
 CLI::Option* add_number(CLI::App* command, const std::string& name, Bound least, Bound most, T& to,
-                        const std::string& help) {
+                        const std::string& help = {}) {
   return add_defaulted(command, name, to, help)->check(CLI::Range(least, most));
 }
 

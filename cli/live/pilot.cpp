@@ -129,24 +129,21 @@ void run_pilot(PilotCommandOptions& options) {
 
 void add_limits(CLI::App* command, PilotCommandOptions& options) {
   const auto* const group = "What stops the vehicle";
-  add_valued(command, "--max-depth", "METRES [10]", options.limits.depth_m, "deeper than this")
+  add_valued(command, "--max-depth", "METRES [10]", options.limits.depth_m)
       ->check(CLI::Range(0.1, 10000.0))
       ->capture_default_str()
       ->group(group);
-  add_valued(command, "--min-altitude", "METRES [0]", options.limits.altitude_m,
-             "nearer to the sea floor than this; 0: not watched")
+  add_valued(command, "--min-altitude", "METRES [0]", options.limits.altitude_m)
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str()
       ->group(group);
-  add_valued(command, "--max-minutes", "MINUTES [60]", options.minutes, "under way for longer than this")
+  add_valued(command, "--max-minutes", "MINUTES [60]", options.minutes)
       ->check(CLI::Range(0.01, 100000.0))
       ->group(group);
-  add_valued(command, "--max-range", "METRES [1000]", options.limits.range_m,
-             "farther than this from where the mission began")
+  add_valued(command, "--max-range", "METRES [1000]", options.limits.range_m)
       ->check(CLI::Range(1.0, 1e6))
       ->group(group);
-  add_valued(command, "--max-age", "SECONDS [1]", options.limits.age_s,
-             "compass, inertial card, motor card or navcald itself silent for longer than this")
+  add_valued(command, "--max-age", "SECONDS [1]", options.limits.age_s)
       ->check(CLI::Range(0.2, 60.0))
       ->group(group);
 }
@@ -156,25 +153,14 @@ void add_limits(CLI::App* command, PilotCommandOptions& options) {
 void add_pilot(CLI::App& app) {
   auto* command = app.add_subcommand("pilot", "takes the vehicle through a mission, through a running navcald");
   const auto options = std::make_shared<PilotCommandOptions>();
-  add_valued(command, "mission", "NAME|FILE", options->mission,
-             "a mission that is shipped, or a TOML file; as simulate takes it")
-      ->required();
-  add_valued(command, "--gains", "FILE.toml", options->gains,
-             "TOML file with the table [autopilot], and [hull] and [propeller], from which the shaft speed for a "
-             "speed\nfollows; what it does not say is as in config/pilot.toml");
-  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->address.control,
-             "navcald's control socket");
-  add_valued(command, "--host", "HOST [127.0.0.1]", options->address.host, "where navcald's status socket is");
-  add_valued(command, "--port", "PORT [2947]", options->address.port, "its port")->check(CLI::Range(1, 65535));
-  add_valued(command, "--priority", "NUMBER [1]", options->lease.priority,
-             "of its lease of the motor card, against others'")
-      ->check(CLI::Range(0, 1000));
-  add_valued(command, "--lease-timeout", "SECONDS [0.5]", options->lease.timeout_s,
-             "navcald stops the vehicle when orders stay out so long")
-      ->check(CLI::Range(0.1, 60.0));
-  add_valued(command, "--wait", "SECONDS [15]", options->wait_s,
-             "at most, for the instruments and for true north, before the mission begins")
-      ->check(CLI::Range(0.1, 3600.0));
+  add_valued(command, "mission", "NAME|FILE", options->mission)->required();
+  add_valued(command, "--gains", "FILE.toml", options->gains);
+  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->address.control);
+  add_valued(command, "--host", "HOST [127.0.0.1]", options->address.host);
+  add_valued(command, "--port", "PORT [2947]", options->address.port)->check(CLI::Range(1, 65535));
+  add_valued(command, "--priority", "NUMBER [1]", options->lease.priority)->check(CLI::Range(0, 1000));
+  add_valued(command, "--lease-timeout", "SECONDS [0.5]", options->lease.timeout_s)->check(CLI::Range(0.1, 60.0));
+  add_valued(command, "--wait", "SECONDS [15]", options->wait_s)->check(CLI::Range(0.1, 3600.0));
   add_limits(command, *options);
   command->callback([options] { run_pilot(*options); });
 }

@@ -44,12 +44,10 @@ void run(const emulation::PlayArguments& arguments) {
 void add_play(CLI::App& app) {
   auto* command = app.add_subcommand("play", "play a recording into pseudo-terminals at its own pace");
   const auto arguments = std::make_shared<emulation::PlayArguments>();
-  command->add_option("FILE", arguments->file, "capture (.cap) or log (.mcap)")->required();
-  command->add_option("--dir", arguments->dir, "folder for the ports, DIR/<port>; created if missing")->required();
-  add_number(command, "--speed", 0.001, 1e6, arguments->speed, "factor of the speed over the recorded one");
-  add_number(command, "--wait", 0.0, 86400.0, arguments->wait_s,
-             "seconds to wait, after `ready`, until every port has been opened, so that nothing of the\n"
-             "beginning is missed; then it starts anyway. 0 starts at once");
+  command->add_option("FILE", arguments->file)->required();
+  command->add_option("--dir", arguments->dir)->required();
+  add_number(command, "--speed", 0.001, 1e6, arguments->speed);
+  add_number(command, "--wait", 0.0, 86400.0, arguments->wait_s);
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -79,12 +79,10 @@ void add_ports_command(CLI::App* ports) {
   const auto options = std::make_shared<PortsCommandOptions>();
   auto* const command =
       ports->add_subcommand("command", "gives the instrument at a port of a running navcald a command");
-  add_valued(command, "PORT", "PORT", options->port,
-             "name of the port; without it the commands of all ports are listed");
-  add_valued(command, "NAME", "NAME", options->name, "the command; without it those of the port are listed");
-  command->add_flag("--force", options->force,
-                    "also a command that stops data or makes the device forget something");
-  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control, "navcald's control socket");
+  add_valued(command, "PORT", "PORT", options->port);
+  add_valued(command, "NAME", "NAME", options->name);
+  command->add_flag("--force", options->force);
+  add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control);
   command->callback([options] { run_command(*options); });
 }
 
@@ -134,7 +132,7 @@ void run(bool json) {
 void add_ports(CLI::App& app) {
   auto* command = app.add_subcommand("ports", "serial ports of this machine and their properties");
   const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "one JSON object a line; unknown values are null");
+  command->add_flag("--json", *json);
   add_ports_command(command);
   add_ports_send_calibration(*command);
   command->callback([command, json] {

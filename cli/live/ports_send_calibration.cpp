@@ -259,13 +259,10 @@ void send_calibration(const SendCalibrationOptions& options) {
 void add_ports_send_calibration(CLI::App& ports) {
   const auto options = std::make_shared<SendCalibrationOptions>();
   auto* const command = ports.add_subcommand("send-calibration", "writes a compass calibration to an autopilot");
-  command->add_option("LINK", options->link, "udp:, tcp: or tcp-listen:ADDRESS:PORT of MAVLink, or a serial port")
-      ->required();
-  add_valued(command, "--parameters", "FILE", options->parameters,
-             "of navcal calibrate --parameters, or the values of before")
-      ->required();
-  add_number(command, "--baud", 300, 4'000'000, options->baud, "speed of a serial port");
-  command->add_flag("--yes", options->yes, "write without asking");
+  command->add_option("LINK", options->link)->required();
+  add_valued(command, "--parameters", "FILE", options->parameters)->required();
+  add_number(command, "--baud", 300, 4'000'000, options->baud);
+  command->add_flag("--yes", options->yes);
   command->callback([options] { send_calibration(*options); });
 }
 

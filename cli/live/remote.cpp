@@ -157,15 +157,10 @@ void run_remote(const RemoteCommandOptions& options) {
 }
 
 void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
-  add_valued(command, "--baud", "BAUD [57600]", options.remote.baud, "speed of the serial port")
-      ->check(CLI::Range(300, 4000000));
-  add_valued(command, "--key-file", "FILE", options.remote.key_file,
-             "the key that vehicle and operator share; only its owner may have access to the file");
-  add_valued(command, "--budget", "B/S [2000]", options.remote.budget_B_s,
-             "bytes a second that this end sends at most")
-      ->check(CLI::Range(300.0, 1e6));
-  add_valued(command, "--wait", "SECONDS [30]", options.wait_s, "at most, for the vehicle and for an answer")
-      ->check(CLI::Range(0.1, 86400.0));
+  add_valued(command, "--baud", "BAUD [57600]", options.remote.baud)->check(CLI::Range(300, 4000000));
+  add_valued(command, "--key-file", "FILE", options.remote.key_file);
+  add_valued(command, "--budget", "B/S [2000]", options.remote.budget_B_s)->check(CLI::Range(300.0, 1e6));
+  add_valued(command, "--wait", "SECONDS [30]", options.wait_s)->check(CLI::Range(0.1, 86400.0));
 }
 
 }  // namespace
@@ -173,30 +168,18 @@ void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
 void add_remote(CLI::App& app) {
   auto* command = app.add_subcommand("remote", "watches and steers a vehicle over a modem or TCP");
   const auto options = std::make_shared<RemoteCommandOptions>();
-  add_valued(command, "port", "PORT", options->remote.address, "the modem's serial port, or tcp:HOST:PORT")
-      ->required();
-  auto* const action =
-      add_valued(command, "action", "[status|stop|send|ls|get]", options->action,
-                 "status; stop ends every lease, and the vehicle orders its safe state; send a line of the "
-                 "control socket; ls\nlists the logs; get copies one and goes on where it was interrupted. "
-                 "Without one: the live view, which takes\ntyped commands")
-          ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}));
-  add_valued(command, "argument", "[JSON|NAME]", options->argument,
-             "of send: the line, an object of JSON; of get: the log's name")
-      ->needs(action);
-  add_valued(command, "-o,--output", "FILE [NAME]", options->output, "where get puts the log");
+  add_valued(command, "port", "PORT", options->remote.address)->required();
+  auto* const action = add_valued(command, "action", "[status|stop|send|ls|get]", options->action)
+                           ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}));
+  add_valued(command, "argument", "[JSON|NAME]", options->argument)->needs(action);
+  add_valued(command, "-o,--output", "FILE [NAME]", options->output);
   add_line_options(command, *options);
-  add_valued(command, "--holder", "NAME [operator]", options->remote.holder,
-             "name of the lease's holder, as others see it");
-  add_valued(command, "--priority", "NUMBER [10]", options->remote.priority,
-             "of the lease of the motor card, against others'")
-      ->check(CLI::Range(0, 1000));
-  add_valued(command, "--lease-timeout", "SECONDS [5]", options->remote.lease_timeout_s,
-             "the vehicle stops when no order has come for so long")
+  add_valued(command, "--holder", "NAME [operator]", options->remote.holder);
+  add_valued(command, "--priority", "NUMBER [10]", options->remote.priority)->check(CLI::Range(0, 1000));
+  add_valued(command, "--lease-timeout", "SECONDS [5]", options->remote.lease_timeout_s)
       ->check(CLI::Range(0.1, 60.0));
-  command->add_flag("--json", options->json, "prints reports and answers as lines of JSON");
-  add_valued(command, "--seconds", "SECONDS [0]", options->seconds, "end after this time (0: at Ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--json", options->json);
+  add_valued(command, "--seconds", "SECONDS [0]", options->seconds)->check(CLI::NonNegativeNumber);
   command->callback([options] {
     const bool needs_argument = options->action == "send" || options->action == "get";
     if (needs_argument == options->argument.empty())

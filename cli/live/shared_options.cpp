@@ -36,21 +36,16 @@ record::TimeWindow WindowOptions::window() const {
 void add_window(CLI::App& command, WindowOptions& options, const std::string& from_otherwise) {
   add_valued(&command, "--from", "T", options.from,
              "begin of the part of each recording that is used: seconds from its start, or UTC" + from_otherwise);
-  add_valued(&command, "--to", "T", options.to, "end of that part");
+  add_valued(&command, "--to", "T", options.to);
 }
 
 void add_effect_options(CLI::App* command, std::vector<std::string>& effects, std::filesystem::path& file) {
-  add_valued(command, "--effect", "NAME[@OF][=STRENGTH]", effects,
-             "departure from the nominal model, in typical strengths (default: 1); its direction comes from the "
-             "seed;\nrepeatable. Of a part of a layout: thrust_scale@thruster.2=1. navcal simulate --list-effects "
-             "names all")
-      ->each([](const std::string& text) {
-        if (text.find('=') == std::string::npos)
-          fmt::print(stderr, "navcal: --effect {0}: strength 1, the typical one; half of it: --effect {0}=0.5\n",
-                     text);
-      });
-  add_valued(command, "--effects", "FILE.toml", file,
-             "departures with exact parameters: one table [NAME] for each, which may have from_s and until_s");
+  add_valued(command, "--effect", "NAME[@OF][=STRENGTH]", effects)->each([](const std::string& text) {
+    if (text.find('=') == std::string::npos)
+      fmt::print(stderr, "navcal: --effect {0}: strength 1, the typical one; half of it: --effect {0}=0.5\n",
+                 text);
+  });
+  add_valued(command, "--effects", "FILE.toml", file);
 }
 
 namespace {
@@ -93,11 +88,8 @@ void add_clock_option(CLI::App* command, std::vector<sim::ClockFactor>& clocks) 
 }
 
 void add_place_and_field(CLI::App* command, emulation::PlaceArguments& arguments) {
-  add_valued(
-      command, "--place", "LAT,LON[,HEIGHT_M]", arguments.place,
-      "degrees north and east, metres above the ellipsoid; the Earth's field there is the World Magnetic Model's");
-  add_valued(command, "--field", "N,E,D", arguments.field,
-             "the Earth's field in uT: north, east and down of true north");
+  add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", arguments.place);
+  add_valued(command, "--field", "N,E,D", arguments.field);
 }
 
 }  // namespace navcal::cli

@@ -241,23 +241,17 @@ void add_start(CLI::App& app) {
       app.add_subcommand("start", "configures, checks and runs navcald for a common vehicle or device");
   const auto options = std::make_shared<StartCommandOptions>();
   StartRequest& request = options->request;
-  add_valued(command, "--for", "bluerov2|ros2|gpsd|nmea", request.kind,
-             "what there is: a BlueROV2, nodes of ROS 2, a receiver that gpsd reads, a device with NMEA 0183")
+  add_valued(command, "--for", "bluerov2|ros2|gpsd|nmea", request.kind)
       ->check(CLI::IsMember(std::vector<std::string>{"bluerov2", "ros2", "gpsd", "nmea"}))
       ->required();
-  add_valued(command, "--output", "FILE [navcal-KIND/navcald.toml]", request.output,
-             "configuration to write; a file that is there is not written over");
-  add_valued(command, "--address", "ADDRESS [bluerov2: udp:0.0.0.0:14551]", request.address,
-             "bluerov2 and nmea: place in the network (docs/network-ports.md)");
-  add_valued(command, "--device", "PATH [gpsd, nmea: the only one there]", request.device,
-             "bluerov2, gpsd and nmea: serial port");
-  add_valued(command, "--baud", "BAUD [bluerov2 115200, gpsd 9600, nmea 4800]", request.baud, "its speed")
+  add_valued(command, "--output", "FILE [navcal-KIND/navcald.toml]", request.output);
+  add_valued(command, "--address", "ADDRESS [bluerov2: udp:0.0.0.0:14551]", request.address);
+  add_valued(command, "--device", "PATH [gpsd, nmea: the only one there]", request.device);
+  add_valued(command, "--baud", "BAUD [bluerov2 115200, gpsd 9600, nmea 4800]", request.baud)
       ->check(CLI::Range(50, 4000000));
-  add_repeatable(command, "--in", "KIND=/TOPIC [imu=/imu/data mag=/imu/mag fix=/fix]", request.topics,
-                 "ros2: topic that is taken; may be repeated")
-      ->take_all();
-  add_number(command, "--port", 1, 65535, request.status_port, "navcald's status port");
-  add_number(command, "--seconds", 1.0, 3600.0, options->seconds, "time of listening to what arrives");
+  add_repeatable(command, "--in", "KIND=/TOPIC [imu=/imu/data mag=/imu/mag fix=/fix]", request.topics)->take_all();
+  add_number(command, "--port", 1, 65535, request.status_port);
+  add_number(command, "--seconds", 1.0, 3600.0, options->seconds);
   command->callback([options] { start(*options); });
 }
 

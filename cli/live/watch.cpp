@@ -114,11 +114,10 @@ void watch(const WatchCommandOptions& options) {
 void add_watch(CLI::App& app) {
   auto* command = app.add_subcommand("watch", "live view of a running navcald");
   const auto options = std::make_shared<WatchCommandOptions>();
-  add_defaulted(command, "--host", options->host, "host of navcald");
-  add_number(command, "--port", 1, 65535, options->port, "its status port");
-  command->add_flag("--json", options->json, "print the stream unchanged");
-  command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
+  add_defaulted(command, "--host", options->host);
+  add_number(command, "--port", 1, 65535, options->port);
+  command->add_flag("--json", options->json);
+  command->add_option("--seconds", options->seconds)->check(CLI::NonNegativeNumber);
   command->callback([options] { watch(*options); });
 }
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/live/commands.h"
+
+namespace navcal::cli {
+
+const char* command_help();  // command_help.txt
+
+namespace {
+
+/// The app and all commands below it.
+void append_all(CLI::App& app, std::vector<CLI::App*>& to) {
+  to.push_back(&app);
+  for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+    append_all(*command, to);
+}
+
+/// The commands that a section names: "navcal log fetch", or "navcal *", all.
+std::vector<CLI::App*> commands_named(CLI::App& app, const std::string& title) {
+  std::vector<CLI::App*> found{&app};
+  std::istringstream names(title);
+  std::string name;
+  names >> name;  // that of the program
+  while (names >> name && !found.empty()) {
+    CLI::App& parent = *found.front();
+    found.clear();
+    if (name == "*") {
+      append_all(parent, found);
+      break;
+    }
+    found = parent.get_subcommands([&](const CLI::App* one) { return one->check_name(name); });
+  }
+  return found;
+}
+
+std::string with_line_ends(std::string words) {
+  for (std::size_t at = 0; (at = words.find("\\n", at)) != std::string::npos;) words.replace(at, 2, "\n");
+  return words;
+}
+
+}  // namespace
+
+void set_help(CLI::App& app) {
+  std::vector<CLI::App*> commands;
+  std::istringstream lines(command_help());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("== ")) {
+      commands = commands_named(app, line.substr(3));
+    } else if (line.starts_with('@')) {
+      const std::size_t space = std::min(line.find(' '), line.size() - 1);
+      for (CLI::App* const command : commands) {
+        CLI::Option* const option = command->get_option_no_throw(line.substr(1, space - 1));
+        if (option != nullptr && option->get_description().empty())
+          option->description(with_line_ends(line.substr(space + 1)));
+      }
+    } else {
+      for (CLI::App* const command : commands)
+        command->footer(command->get_footer() + (command->get_footer().empty() ? "" : "\n") + line);
+    }
+  }
+}
+
+}  // namespace navcal::cli
