@@ -92,14 +92,15 @@ class AdaptiveUnit : public CalibratorUnit {
  public:
   AdaptiveUnit(const SuiteOptions&, SharedEstimators&) {}
   void update_turn(const TurnStep& step) override {
-    // Its steps of Euler's method become unstable when they are long.
-    constexpr double kLongest_s = 0.5;
+    // Its steps of Euler's method become unstable when they are long, or the hull spins.
+    constexpr double kLongest_s = 0.5, kMost = 1e3;
     if (step.begins_segment || step.duration_s > kLongest_s || !(step.bias_time_s > 0))
       return identifier_.restart();
     heading_rad_ += std::remainder(step.heading_rad - heading_rad_, 2 * std::numbers::pi);
     identifier_.set_period(step.duration_s);
     identifier_.update(heading_rad_, step.roll_rad, step.pitch_rad, step.measured_angle_rad / step.bias_time_s);
     time_s_ += step.duration_s;
+    if (!(identifier_.estimate().norm() < kMost)) start();
   }
   void start() override {
     identifier_ = thesis::AdaptiveIdentifier(kUsual_s);

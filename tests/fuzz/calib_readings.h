@@ -68,7 +68,7 @@ inline void check(const Suite& suite) {
   };
   for (const auto& one : report.calibrators) {
     const Judgement& judgement = one.judgement;
-    for (const auto& [name, value, std] : one.estimate) {
+    for (const auto& [name, value, std, next_std] : one.estimate) {
       require(!std::isinf(value), one, name, value);
       require(std::isfinite(value), one, name, value);
       require(!(std < 0), one, name, std);

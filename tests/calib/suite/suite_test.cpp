@@ -46,6 +46,39 @@ TEST(Suite, FindsGyrosAndDeviationTogetherWhereTheVehicleTurnsThroughTheCircle) 
   }
 }
 
+TEST(Suite, TheAdaptiveIdentifierIsShownAndNeverComesIntoForce) {
+  Suite suite(thesis_options(), kCompassAndGyros);
+  const Calibrator adaptive = *calibrator_named("adaptive");
+  EXPECT_TRUE(suite.report().find(adaptive)->estimate.empty());
+  const auto turn = [&](int from, int to, double rate_rad_s) {
+    double heading_rad = 0;
+    for (int i = from; i < to; ++i) {
+      const double now_rad_s = rate_rad_s * std::sin(0.05 * i);
+      heading_rad += 0.1 * now_rad_s;
+      RateReading rate;
+      rate.time_s = 0.1 * i;
+      rate.rate_rad_s.z() = (now_rad_s - 0.02) / 0.9;
+      suite.put(rate);
+      CompassReading compass;
+      compass.time_s = 0.1 * i;
+      compass.heading_rad = base::wrapped(heading_rad);
+      compass.roll_rad = compass.pitch_rad = 0;
+      suite.put(compass);
+    }
+  };
+  turn(0, 3000, 0.5);
+  const Report report = suite.report();
+  ASSERT_NE(report.find(adaptive)->quantity("scale"), nullptr);
+  EXPECT_NEAR(report.find(adaptive)->quantity("scale")->value, 0.9, 0.05);
+  EXPECT_NEAR(report.find(adaptive)->quantity("bias_rad_s")->value, 0.02, 0.02);
+  EXPECT_FALSE(report.find(adaptive)->judgement.accepted);
+  EXPECT_NE(suite.accept(adaptive, true), "");
+  // Euler's method runs away on a hull that spins: what is shown stays finite.
+  turn(3000, 4000, 60);
+  for (const Quantity& quantity : suite.report().find(adaptive)->estimate)
+    EXPECT_TRUE(std::isfinite(quantity.value)) << quantity.name;
+}
+
 TEST(Suite, AVehicleWithoutASecondGyroFindsTheSameForTheFirst) {
   Suite both(thesis_options(), kCompassAndGyros), one(thesis_options(), kCompassAndGyros);
   for (Reading reading : readings_along("path2", thesis_deviation(), Noise{}, 1)) {
