@@ -2,6 +2,7 @@
 // The gyros A and B: scale and bias of each from turns, and how far they disagree.
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "calib/suite/calibrator_unit.h"
@@ -108,7 +109,9 @@ class AdaptiveUnit : public CalibratorUnit {
   }
   void put_estimate(Correction& into) const override { put_added(into, {}); }
   [[nodiscard]] Judgement judgement() const override {
-    return Judgement().refused("for comparison only: it states no error, and never comes into force", "");
+    Judgement shown;
+    shown.condition = std::numeric_limits<double>::infinity();
+    return shown.refused("for comparison only: it states no error, and never comes into force", "");
   }
   [[nodiscard]] std::vector<Quantity> quantities() const override {
     constexpr double kSettled_s = 60;
