@@ -41,6 +41,7 @@ CalibrateRun::CalibrateRun(const config::Settings& settings, CalibrateHistory* h
 void CalibrateRun::play(const std::string& file, const record::Progress& progress,
                         const record::TimeWindow& window) {
   if (!seen_.is_new(file, remarks_)) return;
+  files_.push_back(file);
   const auto recording = record::Recording::open(file, window);
   const record::PortMatch ports(recording->settings(), settings_);
   for (std::string& remark : ports.remarks(file)) remarks_.push_back(std::move(remark));

@@ -45,6 +45,8 @@ class CalibrateRun {
   [[nodiscard]] double duration_s() const { return static_cast<double>(duration_ns_) * 1e-9; }
   /// Irregularities, each with its file.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  /// Files that were played, in their order, without repetitions of recordings.
+  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
   /// An autopilot's own calibration is still in the fields: an import says so, or a live log shows it.
   [[nodiscard]] bool has_corrected_fields() const { return has_corrected_fields_; }
   /// One of the recordings was imported from a log of PX4.
@@ -68,7 +70,7 @@ class CalibrateRun {
   bool file_begins_ = true;
   std::int64_t newest_ns_ = 0;
   std::int64_t duration_ns_ = 0;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> remarks_, files_;
   record::SeenRecordings seen_;
   bool has_corrected_fields_ = false, is_of_px4_ = false;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numbers>
@@ -14,7 +13,6 @@
 
 #include "base/parallel.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
-#include "record/seen_recordings.h"
 
 namespace navcal::analysis {
 namespace {
@@ -78,10 +76,10 @@ double worst_heading(const calib::Quantity& stated, const calib::FieldCorrection
   return std::sqrt(stated.std * stated.std + worst);
 }
 
-std::vector<calib::Report> reports_of_parts(const config::Settings& settings,
-                                            const std::vector<std::string>& files,
-                                            const record::TimeWindow& window, double duration_s,
+std::vector<calib::Report> reports_of_parts(const CalibrateRun& whole, const record::TimeWindow& window,
                                             const std::function<void(double)>& progress) {
+  const std::vector<std::string>& files = whole.files();
+  const double duration_s = whole.duration_s();
   const bool is_one = files.size() == 1;
   if (is_one && duration_s < kQuarters * kShortest_s) return {};
   const std::size_t count = is_one ? kQuarters : files.size();
@@ -95,7 +93,7 @@ std::vector<calib::Report> reports_of_parts(const config::Settings& settings,
       part.from = later(window.from, duration_s * static_cast<double>(i) / kQuarters);
       if (i + 1 < count) part.to = later(window.from, duration_s * static_cast<double>(i + 1) / kQuarters);
     }
-    CalibrateRun run(settings, nullptr);
+    CalibrateRun run(whole.settings(), nullptr);
     try {
       const auto tell = [&](double share) {
         const std::lock_guard lock(told);
@@ -138,15 +136,10 @@ void add_next_use(calib::Report& whole, std::span<const calib::Report> parts, co
   }
 }
 
-void add_next_use(calib::Report& whole, const CalibrateRun& run, std::span<const std::string> files,
-                  const record::TimeWindow& window, const std::function<void(double)>& progress) {
-  std::vector<std::string> once, repetitions;
-  record::SeenRecordings seen;
-  std::ranges::copy_if(files, std::back_inserter(once),
-                       [&](const std::string& file) { return seen.is_new(file, repetitions); });
-  add_next_use(whole, reports_of_parts(run.settings(), once, window, run.duration_s(), progress),
-               run.earth_field());
-  whole.parts_are_files = once.size() > 1;
+void add_next_use(calib::Report& whole, const CalibrateRun& run, const record::TimeWindow& window,
+                  const std::function<void(double)>& progress) {
+  add_next_use(whole, reports_of_parts(run, window, progress), run.earth_field());
+  whole.parts_are_files = run.files().size() > 1;
 }
 
 }  // namespace navcal::analysis

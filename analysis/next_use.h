@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <span>
-#include <string>
 
 #include "analysis/calibrate_run.h"
 #include "calib/suite/report.h"
@@ -20,10 +19,10 @@ namespace navcal::analysis {
 /// readings.
 void add_next_use(calib::Report& whole, std::span<const calib::Report> parts, const pipeline::EarthField& field);
 
-/// The same by parts of the recordings of `run`, each calibrated alone: the files, or quarters of a single one
-/// that lasts 80 s at least. A file that is given twice counts once. `progress` gets the share of the parts that
-/// was read, in the thread of the caller. Throws as CalibrateRun::play().
-void add_next_use(calib::Report& whole, const CalibrateRun& run, std::span<const std::string> files,
-                  const record::TimeWindow& window, const std::function<void(double)>& progress);
+/// The same by parts of the recordings of `run`, each calibrated alone: its files, or quarters of a single one
+/// that lasts 80 s at least. `progress` gets the share of the parts that was read, in the thread of the caller.
+/// Throws as CalibrateRun::play().
+void add_next_use(calib::Report& whole, const CalibrateRun& run, const record::TimeWindow& window,
+                  const std::function<void(double)>& progress);
 
 }  // namespace navcal::analysis

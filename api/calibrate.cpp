@@ -82,13 +82,12 @@ Calibration calibrate(const std::vector<std::filesystem::path>& files, const Cal
     const auto settings =
         options.config.empty() ? record::Recording::open(files.front())->settings() : config::load(options.config);
     analysis::CalibrateRun run(settings, nullptr);
-    std::vector<std::string> names;
     for (const auto& file : files) {
-      const std::string& name = names.emplace_back(file.string());
+      const std::string name = file.string();
       run.play(name, [&](double share) { relay(name, share); });
     }
     calib::Report report = run.finish();
-    analysis::add_next_use(report, run, names, {}, [&](double share) { relay("each part alone", share); });
+    analysis::add_next_use(report, run, {}, [&](double share) { relay("each part alone", share); });
     return calibration_of(report, run);
   });
 }

@@ -74,7 +74,7 @@ void calibrate(const CalibrateCommandOptions& options) {
   }
   calib::Report report = run.finish();
   base::Progress progress("calibrate, each part alone");
-  analysis::add_next_use(report, run, options.files, window, [&progress](double share) { progress.show(share); });
+  analysis::add_next_use(report, run, window, [&progress](double share) { progress.show(share); });
   tell_remarks("navcal", run.remarks());
 
   std::string answer;

@@ -71,7 +71,7 @@ class Navigator {
   [[nodiscard]] bool rates_come(std::int64_t time_ns) const;
   /// While nothing else does, this reading moves the time on.
   void drive(std::int64_t time_ns);
-  /// By a gauge at a place of the body.
+  /// Takes what a gauge reads that is mounted at `position_m`.
   void correct_depth(double gauge_m, const Eigen::Vector3d& position_m, std::optional<double> std_m);
   void advance(std::int64_t time_ns, const std::optional<Eigen::Vector3d>& mean_rate_rad_s);
   void move_speed(double duration_s);

@@ -70,7 +70,7 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
   const std::int64_t age_ns = observed_ns - in_force.at_ns;
   const bool ours = in_force.source == UtcMapping::Source::gps && in_force.at_ns == given_ns_;
   const bool disagrees = std::abs(candidate.offset_ns - in_force.offset_ns) > candidate.bound_ns;
-  // Of two receivers that disagree the first stays while it speaks, unless the other one is much better.
+  // The first of two receivers that disagree stays while it speaks, unless the other one is much better.
   const bool is_others = in_force.source == UtcMapping::Source::gps && age_ns < kSilent * kMappingRefreshAge_ns;
   const std::int64_t narrower_than_ns = bound_at(in_force, observed_ns) / (is_others ? kMuchBetter : 1);
   const bool better =

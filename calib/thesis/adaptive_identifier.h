@@ -26,7 +26,8 @@ class AdaptiveIdentifier {
   /// xhat; nothing before the first reading.
   [[nodiscard]] std::optional<double> heading_rad() const { return heading_rad_; }
 
-  void archive(Archive& archive) { archive(period_s_, heading_rad_, estimate_); }
+  /// Without the period.
+  void archive(Archive& archive) { archive(heading_rad_, estimate_); }
 
  private:
   static constexpr double kGain = -0.75;               ///< K, 1/s

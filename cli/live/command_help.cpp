@@ -13,27 +13,21 @@ const char* command_help();  // command_help.txt
 
 namespace {
 
-/// The app and all commands below it.
-void append_all(CLI::App& app, std::vector<CLI::App*>& to) {
-  to.push_back(&app);
-  for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
-    append_all(*command, to);
-}
-
-/// The commands that a section names: "navcal log fetch", or "navcal *", all.
+/// The commands that a section names: "navcal log fetch, navcal log list". Those that this program lacks are left
+/// out.
 std::vector<CLI::App*> commands_named(CLI::App& app, const std::string& title) {
-  std::vector<CLI::App*> found{&app};
-  std::istringstream names(title);
-  std::string name;
-  names >> name;  // that of the program
-  while (names >> name && !found.empty()) {
-    CLI::App& parent = *found.front();
-    found.clear();
-    if (name == "*") {
-      append_all(parent, found);
-      break;
+  std::vector<CLI::App*> found;
+  std::istringstream paths(title);
+  for (std::string path; std::getline(paths, path, ',');) {
+    std::istringstream names(path);
+    std::string name;
+    names >> name;  // that of the program
+    CLI::App* command = &app;
+    while (command != nullptr && names >> name) {
+      const auto below = command->get_subcommands([&](const CLI::App* one) { return one->check_name(name); });
+      command = below.empty() ? nullptr : below.front();
     }
-    found = parent.get_subcommands([&](const CLI::App* one) { return one->check_name(name); });
+    if (command != nullptr) found.push_back(command);
   }
   return found;
 }
