@@ -234,6 +234,9 @@ async function comesBack(page) {
   await vehicle.startWeb();
   await page.until("#link-state", /^live$/);
   await page.when(() => document.getElementById("link-lost").hidden);
+  // The new server has values only once the instruments have sent some; until the next frame is drawn, the old ones stand.
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await page.until("#heading-value", /^5[678]/);
   step("stale values are marked");
   vehicle.stop(vehicle.instruments);
   await page.until("#heading h2 .age", /stale/);
