@@ -8,6 +8,7 @@
 #include "api/guard.h"
 #include "config/mission_limits.h"
 #include "config/mission_text.h"
+#include "diagnosis/next_layout_mission.h"
 #include "emulation/chosen_vehicle.h"
 #include "gap/verdict/study.h"
 #include "report/next_mission.h"
@@ -33,10 +34,22 @@ report::NextMissionSource source_of(const std::vector<std::filesystem::path>& mi
   report::NextMissionSource source;
   source.recordings.assign(missions.begin(), missions.end());
   source.holdouts.assign(options.diagnosis.holdouts.begin(), options.diagnosis.holdouts.end());
+  source.nominals.assign(options.diagnosis.nominals.begin(), options.diagnosis.nominals.end());
   source.vehicle = options.diagnosis.vehicle;
   source.limits = options.limits;
   source.mission = options.mission_out;
   return source;
+}
+
+gap::NextMission plan_of(const std::vector<std::filesystem::path>& missions, const NextMissionOptions& options,
+                         const config::MissionLimits& limits, const gap::Progress& tell) {
+  const auto layout = emulation::layout_in(options.diagnosis.vehicle);
+  const gap::Request request = request_of(missions, options.diagnosis, layout.has_value());
+  if (!layout) return gap::plan_next_mission(*gap::study(request, tell), limits, tell);
+  return diagnosis::plan_next_mission(
+      *diagnosis::study(request, {.layout = *layout, .excluded = {}, .is_steady = options.diagnosis.steady},
+                        options.diagnosis.nominals, tell),
+      limits, tell);
 }
 
 }  // namespace
@@ -46,11 +59,7 @@ NextMission plan_next_mission(const std::vector<std::filesystem::path>& missions
   return guarded_with_progress(options.diagnosis.progress, [&](ProgressRelay& relay) {
     const auto tell = [&](std::string_view step, double share) { relay(step, share); };
     const config::MissionLimits limits = limits_of(options);
-    if (emulation::layout_in(options.diagnosis.vehicle))
-      throw Error(ErrorKind::bad_argument,
-                  "vehicle: missions are planned for vehicle files only, not for layouts");
-    const auto study = gap::study(request_of(missions, options.diagnosis), tell);
-    const gap::NextMission plan = gap::plan_next_mission(*study, limits, tell);
+    const gap::NextMission plan = plan_of(missions, options, limits, tell);
     const report::NextMissionSource source = source_of(missions, options);
     NextMission next;
     next.decides = plan.decides;

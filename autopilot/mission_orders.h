@@ -24,6 +24,7 @@ class MissionOrders {
   [[nodiscard]] const config::Mission& mission() const { return steps_.mission(); }
   /// The step under way, or the one that comes next.
   [[nodiscard]] std::size_t step() const { return steps_.step(); }
+  [[nodiscard]] const std::vector<double>& began_s() const { return steps_.began_s(); }
   /// All steps were done once.
   [[nodiscard]] bool finished() const { return steps_.finished(); }
 

@@ -17,6 +17,7 @@ const Demand& MissionSteps::next(const VehicleState& state, double period_s, con
   situation_.last = last;
   if (!manoeuvre_ && step_ < mission_.steps.size()) begin_step();
   if (manoeuvre_ && !manoeuvre_->go_on(situation_, demand_)) end_step();
+  now_s_ += period_s;
   return demand_;
 }
 
@@ -41,7 +42,10 @@ void MissionSteps::end_step() {
   demand_.rudder_rad.reset();
   demand_.elevator_rad.reset();
   demand_.fins_rad = {};
-  if (++step_ < mission_.steps.size()) return;
+  if (++step_ < mission_.steps.size()) {
+    if (!finished_) began_s_.push_back(now_s_);
+    return;
+  }
   finished_ = true;
   if (mission_.at_end == config::MissionEnd::repeat) step_ = 0;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "autopilot/autopilot.h"
 #include "autopilot/manoeuvre.h"
@@ -27,6 +28,8 @@ class MissionSteps {
   /// Time and way since the step began.
   [[nodiscard]] double since_s() const { return situation_.since_s; }
   [[nodiscard]] double way_m() const { return situation_.way_m; }
+  /// Times at which the steps began for the first time, so far, s since the first call of next().
+  [[nodiscard]] const std::vector<double>& began_s() const { return began_s_; }
   /// All steps were done once.
   [[nodiscard]] bool finished() const { return finished_; }
 
@@ -39,6 +42,8 @@ class MissionSteps {
   std::unique_ptr<Manoeuvre> manoeuvre_;  ///< none: before a step, or after the last
   Situation situation_;
   std::size_t step_ = 0;
+  double now_s_ = 0;
+  std::vector<double> began_s_{0};
   bool finished_ = false;
 };
 

@@ -128,6 +128,7 @@ void add_fleet_plan(CLI::App& parent) {
   command->add_option("FOLDER", request->recordings)->required();
   add_valued(command, "-o,--output", "PLAN", request->plan)->required();
   add_valued(command, "--vehicle", "FILE.toml", request->vehicle);
+  add_repeatable(command, "--nominal", "FILE", request->nominals);
   add_valued(command, "--config", "FILE.toml", request->config);
   std::vector<std::string> names;
   for (const fleet::Job& job : fleet::jobs()) names.emplace_back(job.name);

@@ -124,9 +124,7 @@ struct GapCommandOptions : GapRequestOptions {
 };
 
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const std::optional<config::Layout>& layout) {
-  if (!layout && !options.nominals.empty())
-    throw std::invalid_argument(
-        "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
+  if (!layout) expect_no_nominals(options.nominals);
   if (!layout && options.is_steady) throw std::invalid_argument("--steady needs a layout (--vehicle)");
   const gap::Request request = gap_request_of(options, layout.has_value());
   base::Progress progress("gap", base::Progress::Answer::at_the_end);

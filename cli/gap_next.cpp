@@ -16,6 +16,7 @@
 #include "cli/live/result_file.h"
 #include "config/mission_limits.h"
 #include "config/mission_text.h"
+#include "diagnosis/next_layout_mission.h"
 #include "gap/design/next_mission.h"
 #include "gap/verdict/study.h"
 #include "report/next_mission.h"
@@ -25,13 +26,14 @@ namespace {
 
 struct GapNextOptions {
   GapRequestOptions asked;
+  std::vector<std::string> nominals;
   std::string limits, mission, json, report;
   std::optional<double> minutes;
   bool overwrite = false;
   bool list_limits = false;
 
   [[nodiscard]] report::NextMissionSource source() const {
-    return {asked.source.missions, asked.source.holdouts, asked.source.vehicle, limits, mission};
+    return {asked.source.missions, asked.source.holdouts, nominals, asked.source.vehicle, limits, mission};
   }
 };
 
@@ -50,7 +52,7 @@ void expect_writable(const GapNextOptions& options) {
                         options.mission + ": this mission is there already; --overwrite replaces it");
   }
   const report::GapSource& asked = options.asked.source;
-  expect_results(all_paths({asked.missions, asked.holdouts}, {asked.vehicle, asked.config, options.limits}),
+  expect_results(all_paths({asked.missions, asked.holdouts, options.nominals}, {asked.vehicle, asked.config, options.limits}),
                  {options.mission, options.json, options.report});
 }
 
@@ -65,9 +67,8 @@ void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
 void plan_next(const GapNextOptions& options) {
   const config::MissionLimits limits = limits_of(options);
   expect_writable(options);
-  if (layout_of(options.asked)) {
-    throw std::invalid_argument("--vehicle: missions are planned for vehicle files only, not for layouts");
-  }
+  const auto layout = layout_of(options.asked);
+  if (!layout) expect_no_nominals(options.nominals);
   const base::Interruptible interruptible;
   base::Progress progress("gap next", base::Progress::Answer::at_the_end);
   const gap::Progress show = [&](std::string_view what, double done) {
@@ -75,8 +76,14 @@ void plan_next(const GapNextOptions& options) {
       throw base::Failure(base::Exit::failed, "interrupted: nothing was written");
     progress.show(what, done);
   };
-  const auto study = gap::study(gap_request_of(options.asked), show);
-  write_plan(gap::plan_next_mission(*study, limits, show), options);
+  const gap::Request request = gap_request_of(options.asked, layout.has_value());
+  if (layout) {
+    const auto study = diagnosis::study(request, {.layout = *layout, .excluded = {}},
+                                        {options.nominals.begin(), options.nominals.end()}, show);
+    write_plan(diagnosis::plan_next_mission(*study, limits, show), options);
+  } else {
+    write_plan(gap::plan_next_mission(*gap::study(request, show), limits, show), options);
+  }
 }
 
 }  // namespace
@@ -85,6 +92,7 @@ void add_gap_next(CLI::App& gap) {
   auto* command = gap.add_subcommand("next", "plans the mission that tells best what a diagnosis leaves open");
   const auto options = std::make_shared<GapNextOptions>();
   add_gap_request(*command, options->asked);
+  add_repeatable(command, "--nominal", "FILE", options->nominals);
   command->add_option("--minutes", options->minutes)->check(CLI::Range(1.0, 120.0));
   add_valued(command, "--limits", "FILE.toml", options->limits);
   command->add_flag("--list-limits", options->list_limits);

@@ -2,6 +2,7 @@
 #include "cli/gap_request.h"
 
 #include <cstdlib>
+#include <stdexcept>
 #include <variant>
 
 #include "cli/live/option_kinds.h"
@@ -25,6 +26,12 @@ std::filesystem::path usual_cache() {
 
 std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
   return emulation::layout_in(options.source.vehicle);
+}
+
+void expect_no_nominals(const std::vector<std::string>& nominals) {
+  if (!nominals.empty())
+    throw std::invalid_argument(
+        "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
 }
 
 gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout) {

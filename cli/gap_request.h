@@ -34,6 +34,9 @@ void add_gap_request(CLI::App& command, GapRequestOptions& options);
 /// The layout of --vehicle, if it is one. Throws config::Error.
 [[nodiscard]] std::optional<config::Layout> layout_of(const GapRequestOptions& options);
 
+/// Without a layout the floor is simulated. Throws std::invalid_argument where nominal recordings are given.
+void expect_no_nominals(const std::vector<std::string>& nominals);
+
 /// The request without its vehicle where that is a layout. Throws config::Error, base::Failure.
 [[nodiscard]] gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout = false);
 

@@ -28,7 +28,7 @@ set(NAVCAL_MAY_INCLUDE_analysis base protocols config instruments calib pipeline
 set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
 set(NAVCAL_MAY_INCLUDE_validation base config record sim validation/reference)
 set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim emulation gap identify analysis validation)
-set(NAVCAL_MAY_INCLUDE_fleet base protocols config record gap analysis report)
+set(NAVCAL_MAY_INCLUDE_fleet base protocols config record gap diagnosis analysis report)
 set(NAVCAL_MAY_INCLUDE_api base api/include protocols config devices instruments pipeline record sim emulation gap diagnosis analysis report)
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_web base protocols config record ports link share)

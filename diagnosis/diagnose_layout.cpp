@@ -11,10 +11,8 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "diagnosis/cause_search.h"
 #include "diagnosis/held_out.h"
 #include "diagnosis/layout_verdict.h"
-#include "diagnosis/nominal_bank.h"
 #include "diagnosis/steady_source.h"
 #include "gap/verdict/recordings_apart.h"
 #include "record/seen_recordings.h"
@@ -125,29 +123,33 @@ std::vector<std::unique_ptr<RecordingModel>> those_judged(const LayoutRecordings
   return judged;
 }
 
-void find_causes(const LayoutRequest& request, const LayoutRecordings& recordings, const CauseLibrary& library,
-                 ModelSource& source, const gap::Progress& progress, Diagnosis& answer) {
+void find_causes(LayoutStudy& study, const gap::Progress& progress) {
+  const LayoutRecordings& recordings = study.recordings;
+  const CauseLibrary& library = study.library;
+  Diagnosis& answer = study.diagnosis;
   answer.remarks.insert(answer.remarks.end(), library.not_judged.begin(), library.not_judged.end());
-  NominalBank bank = bank_of(source, library, recordings.nominals, recordings.recording,
-                             [&](double done) { progress("nominal recordings", done); });
+  NominalBank& bank = study.bank;
+  bank = bank_of(*study.source, library, recordings.nominals, recordings.recording,
+                 [&](double done) { progress("nominal recordings", done); });
   answer.remarks.push_back(
       bank.powers.empty()
           ? std::string("no nominal recording was given (--nominal): there is no floor, and no cause is named")
       : bank.powers.size() == 1 ? "the floor is that of 1 nominal recording, which does not show how recordings "
                                   "differ: give more (--nominal)"
                                 : fmt::format("the floor is that of {} nominal recordings", bank.powers.size()));
-  std::vector<std::unique_ptr<RecordingModel>> compared = those_judged(recordings, source, bank, answer);
+  auto& compared = study.models;
+  compared = those_judged(recordings, *study.source, bank, answer);
   std::vector<const RecordingModel*> parts;
   for (const auto& one : compared) parts.push_back(one.get());
   const bool are_several = parts.size() > 1;
   if (are_several) {
-    compared.push_back(source.joined(parts));
+    compared.push_back(study.source->joined(parts));
     bank.expect(parts.size(), library);
   }
   const RecordingModel& mine = *compared.back();
   const JointPrior prior = bank.prior_of(parts.size());
-  const CauseSearchResult found =
-      search_causes(mine, prior, library, [&](double done) { progress("search", done); });
+  const CauseSearchResult& found =
+      study.found.emplace(search_causes(mine, prior, library, [&](double done) { progress("search", done); }));
   ExplainedRecording itself;
   itself.before = mine.power(mine.own_departures(prior, found.none)).value_or(RecordingPower{});
   const auto with = [&](const CauseSet& set) {
@@ -161,22 +163,22 @@ void find_causes(const LayoutRequest& request, const LayoutRecordings& recording
   itself = with(found.sets.front().causes);
   answer.where = louder_channels(itself.before, bank.powers);
   answer.where.insert(answer.where.end(), itself.before.apart.begin(), itself.before.apart.end());
-  const Judged judged{library, source, bank, found, progress};
+  const Judged judged{library, *study.source, bank, found, progress};
   std::vector<ExplainedRecording> explained;
   if (!found.sets.front().causes.empty()) {
     for (const RecordedMotion& other : recordings.holdouts) {
       progress("held out " + other.name, 0);
-      explained.push_back(held_out(*source.compared(other, bank.prior.mean), bank.prior, library, found));
+      explained.push_back(held_out(*study.source->compared(other, bank.prior.mean), bank.prior, library, found));
     }
     if (are_several && explained.empty()) explained = predicted_by_others(judged, parts);
   }
   answer.gap.held_out = !explained.empty() && !recordings.holdouts.empty();
   answer.gap.pooled =
       closure_of(explained.empty() ? std::span(&itself, 1) : std::span(explained.data(), explained.size()),
-                 bank.floor().mean, request.seed);
+                 bank.floor().mean, study.request.seed);
   const auto closure = [&](const CauseSet& set) {
     const ExplainedRecording one = with(set);
-    return closure_of(std::span(&one, 1), bank.floor().mean, request.seed);
+    return closure_of(std::span(&one, 1), bank.floor().mean, study.request.seed);
   };
   write_verdict({library, bank, found, itself.after, explained, closure, itself.before.mean_square}, answer);
   if (!are_several) return;
@@ -205,55 +207,69 @@ std::vector<const RecordedMotion*> LayoutRecordings::together() const {
   return all;
 }
 
-Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
-                   const gap::Progress& progress) {
+std::unique_ptr<LayoutStudy> study(LayoutRequest request, LayoutRecordings recordings,
+                                   const gap::Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
-  Diagnosis answer;
-  for (const RecordedMotion* recording : recordings.together()) {
+  auto study = std::make_unique<LayoutStudy>();
+  study->request = std::move(request);
+  study->recordings = std::move(recordings);
+  const config::Layout& layout = study->request.layout;
+  Diagnosis& answer = study->diagnosis;
+  for (const RecordedMotion* recording : study->recordings.together()) {
     answer.duration_s += recording->duration_s;
     for (const std::string& remark : recording->remarks)
-      answer.remarks.push_back(subject(*recording, recordings) + remark);
+      answer.remarks.push_back(subject(*recording, study->recordings) + remark);
   }
   const Diagnosis empty = answer;
   // Why the recording is not judged so; empty: it is.
-  const auto judge = [&](const auto& find) -> std::string {
+  const auto judge = [&](const auto& make_source) -> std::string {
     try {
-      find();
+      study->models.clear();
+      make_source();
+      find_causes(*study, progress);
       return {};
     } catch (const std::invalid_argument& error) {
       answer = empty;
+      study->found.reset();
       return error.what();
     }
   };
   // An excluded name that is no cause is the caller's fault.
-  const CauseLibrary library = causes_of(request.layout, recordings.recording, request.excluded);
+  const CauseLibrary library = causes_of(layout, study->recordings.recording, study->request.excluded);
+  study->library = library;
   std::string reason = "asked for (--steady)";
-  if (!request.is_steady) {
+  if (!study->request.is_steady) {
     reason = judge([&] {
-      FilteredSource source(request.layout, library, base::threads_or_cores(request.threads));
-      find_causes(request, recordings, library, source, progress, answer);
+      study->source =
+          std::make_unique<FilteredSource>(layout, study->library, base::threads_or_cores(study->request.threads));
     });
   }
   if (!reason.empty()) {
     const std::string why_not = judge([&] {
-      const CauseLibrary told = steady_causes_of(request.layout, recordings.together(), library);
-      SteadySource source(request.layout, told);
-      find_causes(request, recordings, told, source, progress, answer);
+      study->library = steady_causes_of(layout, study->recordings.together(), library);
+      study->source = std::make_unique<SteadySource>(layout, study->library);
     });
     answer.remarks.push_back("judged by mean forces over steady stretches alone: " + reason);
     if (!why_not.empty()) {
       answer.verdict = gap::Verdict::unknown;
       answer.remarks.back() = reason;
       if (why_not != reason) answer.remarks.push_back("by mean forces over steady stretches: " + why_not);
-      answer.sentence = "The recording cannot be diagnosed: " + (request.is_steady ? why_not : reason) + '.';
+      answer.sentence =
+          "The recording cannot be diagnosed: " + (study->request.is_steady ? why_not : reason) + '.';
     }
   }
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return answer;
+  return study;
 }
 
-Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
-                   const std::vector<std::filesystem::path>& nominals, const gap::Progress& progress) {
+Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
+                   const gap::Progress& progress) {
+  return std::move(study(request, recordings, progress)->diagnosis);
+}
+
+std::unique_ptr<LayoutStudy> study(const gap::Request& files, LayoutRequest request,
+                                   const std::vector<std::filesystem::path>& nominals,
+                                   const gap::Progress& progress) {
   if (files.bank_missions != gap::Request{}.bank_missions)
     throw std::invalid_argument("--bank: the floor of a layout is that of nominal recordings (--nominal)");
   record::SeenRecordings seen;
@@ -277,9 +293,15 @@ Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
   request.excluded = files.excluded;
   request.seed = files.bank_seed;
   request.threads = files.threads;
-  Diagnosis answer = diagnose(request, recordings, progress);
-  answer.remarks.insert(answer.remarks.end(), repeated.begin(), repeated.end());
-  return answer;
+  auto made = study(std::move(request), std::move(recordings), progress);
+  auto& remarks = made->diagnosis.remarks;
+  remarks.insert(remarks.end(), repeated.begin(), repeated.end());
+  return made;
+}
+
+Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
+                   const std::vector<std::filesystem::path>& nominals, const gap::Progress& progress) {
+  return std::move(study(files, std::move(request), nominals, progress)->diagnosis);
 }
 
 }  // namespace navcal::diagnosis

@@ -3,10 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "config/layout.h"
+#include "diagnosis/cause_search.h"
+#include "diagnosis/nominal_bank.h"
 #include "gap/verdict/request.h"
 #include "identify/data/recorded_motion.h"
 
@@ -36,15 +40,32 @@ struct LayoutRecordings {
   [[nodiscard]] std::vector<const identify::RecordedMotion*> together() const;
 };
 
+/// A diagnosis together with what it rests on, for steps that go on from it.
+struct LayoutStudy {
+  LayoutRequest request;
+  LayoutRecordings recordings;
+  CauseLibrary library;
+  std::unique_ptr<ModelSource> source;
+  NominalBank bank;
+  std::vector<std::unique_ptr<RecordingModel>> models;  ///< of the recordings judged; behind several, all together
+  std::optional<CauseSearchResult> found;               ///< nullopt: no recording can be judged
+  gap::Diagnosis diagnosis;
+};
+
 /// Diagnoses recordings (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded
 /// name that is no cause. A recording that cannot be diagnosed gets the verdict `unknown` and remarks that say
 /// why.
+[[nodiscard]] std::unique_ptr<LayoutStudy> study(LayoutRequest request, LayoutRecordings recordings,
+                                                 const gap::Progress& progress);
 [[nodiscard]] gap::Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
                                       const gap::Progress& progress);
 
 /// The same of files: captures or logs. Of `files` recordings, settings, window, exclusions, seed and threads
 /// count. A file that is given twice counts once. Throws record::BadRecording for a file that is no recording, and
 /// std::invalid_argument for a field or a number of null missions, which a layout has no use for.
+[[nodiscard]] std::unique_ptr<LayoutStudy> study(const gap::Request& files, LayoutRequest request,
+                                                 const std::vector<std::filesystem::path>& nominals,
+                                                 const gap::Progress& progress);
 [[nodiscard]] gap::Diagnosis diagnose(const gap::Request& files, LayoutRequest request,
                                       const std::vector<std::filesystem::path>& nominals,
                                       const gap::Progress& progress);

@@ -117,16 +117,17 @@ void FittedRecording::hold_gains(const Eigen::VectorXd& at) {
   if (!held_) throw cannot_follow(filter_.recording());
 }
 
+std::optional<identify::FilterLinearised> FittedRecording::linearised(const Eigen::VectorXd& at) const {
+  if (held_) return filter_.linearise(*held_, values_at(at), columns_);
+  const auto pass = follow(at);
+  if (!pass) return std::nullopt;
+  return filter_.linearise(*pass, columns_);
+}
+
 std::optional<RecordingFit> FittedRecording::fit(const Eigen::VectorXd& at) const {
-  const Eigen::VectorXd values = values_at(at);
-  const auto here = [&]() -> std::optional<identify::FilterLinearised> {
-    if (held_) return filter_.linearise(*held_, values, columns_);
-    const auto pass = filter_.follow(values);
-    if (!pass) return std::nullopt;
-    return filter_.linearise(*pass, columns_);
-  }();
+  const auto here = linearised(at);
   if (!here) return std::nullopt;
-  const Eigen::VectorXd inside = values - filter_.start();
+  const Eigen::VectorXd inside = values_at(at) - filter_.start();
   const Likelihood linear{here->information(), here->score(), -(here->power + here->log_det) / 2,
                           -here->log_det / 2};
   return RecordingFit{linear.about(-inside), inside};
@@ -196,7 +197,7 @@ std::optional<RecordingPower> JoinedRecordings::power(const Eigen::VectorXd& at)
 }
 
 std::unique_ptr<RecordingModel> FilteredSource::nominal(const identify::RecordedMotion& recording) {
-  auto made = std::make_unique<FittedRecording>(layout_, library_, recording, noises_, threads_);
+  auto made = fitted(recording);
   nominals_.push_back(made.get());
   return made;
 }
@@ -219,7 +220,7 @@ void FilteredSource::refine(std::size_t round, std::span<const Eigen::VectorXd> 
 
 std::unique_ptr<RecordingModel> FilteredSource::compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const {
-  auto made = std::make_unique<FittedRecording>(layout_, library_, recording, noises_, threads_);
+  auto made = fitted(recording);
   made->hold_gains(nominal);
   return made;
 }

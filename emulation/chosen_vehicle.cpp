@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include "config/complaints.h"
-#include "config/document.h"
 #include "config/layout/layout_file.h"
 #include "config/mission_file.h"
 #include "config/vehicle_file.h"
@@ -20,16 +17,6 @@
 
 namespace navcal::emulation {
 namespace {
-
-bool is_layout(std::string_view toml) {
-  constexpr std::array<std::string_view, 6> kTables{"body",    "added_mass", "thruster",
-                                                    "surface", "ballast",    "moving_mass"};
-  std::vector<config::Problem> problems;
-  const std::vector<config::Entry> entries = config::read_document(toml, problems);
-  return std::any_of(entries.begin(), entries.end(), [&](const config::Entry& entry) {
-    return std::find(kTables.begin(), kTables.end(), entry.keys.front()) != kTables.end();
-  });
-}
 
 /// Why a layout has no equations of motion; empty: it has.
 std::string reason_against(const config::Layout& layout) {
@@ -43,7 +30,7 @@ std::string reason_against(const config::Layout& layout) {
 ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file) {
   if (file.empty()) return config::VehicleSettings{};
   const std::string toml = config::content_of(file);
-  if (is_layout(toml)) return config::parse_layout(toml, file.native());
+  if (config::is_layout(toml)) return config::parse_layout(toml, file.native());
   return config::parse_vehicle(toml, file.native());
 }
 

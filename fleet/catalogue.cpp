@@ -80,6 +80,8 @@ void read_catalogue(Database& database, const std::string& name, Plan& plan) {
   }
   plan.vehicles = texts(database, "SELECT vehicle, toml FROM vehicles");
   plan.configurations = texts(database, "SELECT configuration, toml FROM configurations");
+  for (Statement rows(database, "SELECT vehicle, recording FROM nominals ORDER BY recording"); rows.step();)
+    plan.nominals[rows.text(0)].push_back(rows.text(1));
   plan.tasks = read_tasks(database);
   // A bank outlives the recording that it was to be made of only where it was made; jobs know that by its result.
   std::set<std::string> used;
@@ -145,6 +147,10 @@ void add_task(Database& database, const Task& task) {
 void add_vehicle(Database& database, const std::string& vehicle, const std::string& name,
                  const std::string& toml) {
   Statement(database, "INSERT OR IGNORE INTO vehicles VALUES(?1, ?2, ?3)").run(vehicle, name, toml);
+}
+
+void add_nominal(Database& database, const std::string& vehicle, const std::string& recording) {
+  Statement(database, "INSERT OR IGNORE INTO nominals VALUES(?1, ?2)").run(vehicle, recording);
 }
 
 void add_configuration(Database& database, const std::string& configuration, const std::string& name,

@@ -39,6 +39,8 @@ void add_bank(Database& database, const PlannedBank& bank);
 void add_task(Database& database, const Task& task);
 /// TOML texts of vehicles or configurations.
 void add_vehicle(Database& database, const std::string& vehicle, const std::string& name, const std::string& toml);
+/// A recording without a gap of a vehicle with a layout.
+void add_nominal(Database& database, const std::string& vehicle, const std::string& recording);
 void add_configuration(Database& database, const std::string& configuration, const std::string& name,
                        const std::string& toml);
 

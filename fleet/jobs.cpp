@@ -11,6 +11,7 @@
 #include "analysis/calibrate_run.h"
 #include "analysis/noise/noise_run.h"
 #include "analysis/surfacing_run.h"
+#include "diagnosis/diagnose_layout.h"
 #include "fleet/causes/information_json.h"
 #include "gap/verdict/information.h"
 #include "gap/verdict/request.h"
@@ -91,7 +92,12 @@ std::string bank_answer(const JobInput& input) {
 std::string gap_answer(const JobInput& input) {
   gap::Request request = request_of(input);
   request.cache_is_read_only = true;
-  const gap::Diagnosis diagnosis = gap::diagnose(request, [](std::string_view, double) {});
+  const gap::Progress silent = [](std::string_view, double) {};
+  if (input.layout) request.bank_missions = gap::Request{}.bank_missions;  // it has none
+  const gap::Diagnosis diagnosis =
+      input.layout
+          ? diagnosis::diagnose(request, {.layout = *input.layout, .excluded = {}}, input.nominals, silent)
+          : gap::diagnose(request, silent);
   auto json = JobJson::parse(report::gap_json(diagnosis));
   json.erase("seconds");
   json["bank"].erase("seconds");
@@ -137,11 +143,11 @@ std::string surfacings_answer(const JobInput& input) {
   return text_of(JobJson::parse(report::surfacings_json(run.surfacings(), {})));
 }
 
-constexpr std::array kJobs{Job{"gap", true, true, gap_answer}, Job{"calibrate", false, false, calibrate_answer},
-                           Job{"noise", false, false, noise_answer},
-                           Job{"surfacings", false, false, surfacings_answer},
-                           Job{"evidence", true, true, evidence_answer}};
-constexpr Job kBank{kBankJob, true, false, bank_answer};
+constexpr std::array kJobs{
+    Job{"gap", true, true, true, gap_answer}, Job{"calibrate", false, false, true, calibrate_answer},
+    Job{"noise", false, false, true, noise_answer}, Job{"surfacings", false, false, true, surfacings_answer},
+    Job{"evidence", true, true, false, evidence_answer}};
+constexpr Job kBank{kBankJob, true, false, false, bank_answer};
 
 }  // namespace
 

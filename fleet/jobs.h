@@ -7,7 +7,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "config/layout.h"
 #include "config/settings.h"
 #include "config/vehicle.h"
 
@@ -17,8 +19,10 @@ namespace navcal::fleet {
 struct JobInput {
   std::filesystem::path recording;
   config::VehicleSettings vehicle;
-  std::optional<config::Settings> settings;  ///< instead of the recording's own
-  std::filesystem::path bank_folder;         ///< holds the null bank; empty: there is none
+  std::optional<config::Layout> layout;         ///< instead of `vehicle`
+  std::vector<std::filesystem::path> nominals;  ///< of a layout: its recordings without a gap
+  std::optional<config::Settings> settings;     ///< instead of the recording's own
+  std::filesystem::path bank_folder;            ///< holds the null bank; empty: there is none
   int bank_missions = 0;
   std::uint64_t bank_seed = 0;
   unsigned threads = 1;
@@ -28,7 +32,8 @@ struct JobInput {
 struct Job {
   std::string_view name;  ///< as in `navcal fleet plan --job`
   bool uses_vehicle;      ///< the answer depends on the nominal vehicle
-  bool uses_bank;         ///< a null bank is made first
+  bool uses_bank;         ///< a null bank is made first, but for a layout
+  bool takes_layout;      ///< the vehicle may be a layout
   /// The answer as one JSON object without what depends on machine, time and place: the same input gives the same
   /// bytes. Throws what a recording that cannot be read throws.
   std::string (*answer)(const JobInput& input);

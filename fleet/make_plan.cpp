@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -14,6 +15,8 @@
 #include "base/failure.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
+#include "config/complaints.h"
+#include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "fleet/catalogue.h"
@@ -113,8 +116,16 @@ class Planner {
         unread.push_back(&file);
       }
     }
+    for (const fs::path& nominal : request_.nominals) {
+      RecordingFile& file = nominals_.emplace_back();
+      file.path = fs::absolute(nominal).lexically_normal().string();
+      if (!look_at(file)) throw base::Failure(base::Exit::bad_input, nominal.string() + ": no such file");
+    }
+    for (RecordingFile& file : nominals_) unread.push_back(&file);
     hash(unread);
     std::erase_if(scan_.files, [](const RecordingFile& file) { return file.recording.empty(); });
+    for (const RecordingFile& file : nominals_)
+      if (file.recording.empty()) throw base::Failure(base::Exit::bad_input, summary_.remarks.back());
     std::map<std::string, RecordingFile> all;
     for (const auto& [path, file] : known) {
       RecordingFile now = file;
@@ -124,7 +135,8 @@ class Planner {
         ++summary_.gone;
       }
     }
-    for (const RecordingFile& file : scan_.files) all[file.path] = file;
+    for (const auto* found : {&nominals_, &scan_.files})
+      for (const RecordingFile& file : *found) all[file.path] = file;
     std::vector<RecordingFile> files;
     for (auto& [path, file] : all) {
       recordings_.emplace(file.recording, file.path);
@@ -164,17 +176,31 @@ class Planner {
     }
   }
 
-  /// Hash of the vehicle's TOML, which the catalogue then has.
-  std::string vehicle_of(const fs::path& recording) {
+  struct PlannedVehicle {
+    std::string key;  ///< hash of its TOML, and of the nominal recordings of a layout
+    bool is_layout = false;
+  };
+  /// The vehicle of a recording, which the catalogue then has.
+  const PlannedVehicle& vehicle_of(const fs::path& recording) {
     const fs::path file = request_.vehicle.empty() ? scan_.vehicle_of(recording) : request_.vehicle;
-    const auto found = vehicle_keys_.find(file);
-    if (found != vehicle_keys_.end()) return found->second;
-    const config::VehicleSettings settings = file.empty() ? config::VehicleSettings{} : config::load_vehicle(file);
-    const std::string toml = config::vehicle_file(settings);
-    std::string key = record::sha256_of(toml);
-    add_vehicle(database_, key, file.empty() ? "the reference vehicle" : file.string(), toml);
-    vehicle_keys_[file] = key;
-    return key;
+    const auto [found, is_new] = vehicles_.try_emplace(file);
+    if (!is_new) return found->second;
+    std::string toml = file.empty() ? config::vehicle_file({}) : config::content_of(file);
+    PlannedVehicle vehicle{{}, config::is_layout(toml)};
+    toml = vehicle.is_layout ? config::layout_file(config::parse_layout(toml, file.native()))
+                             : config::vehicle_file(config::parse_vehicle(toml, file.native()));
+    std::string keyed = toml;
+    if (vehicle.is_layout) {
+      for (const RecordingFile& nominal : nominals_) keyed += nominal.recording;
+    } else if (!nominals_.empty()) {
+      throw std::invalid_argument(
+          "--nominal needs a layout (--vehicle): the floor of other vehicles is simulated");
+    }
+    vehicle.key = record::sha256_of(keyed);
+    add_vehicle(database_, vehicle.key, file.empty() ? "the reference vehicle" : file.string(), toml);
+    if (vehicle.is_layout)
+      for (const RecordingFile& nominal : nominals_) add_nominal(database_, vehicle.key, nominal.recording);
+    return found->second = vehicle;
   }
 
   std::vector<Task> new_tasks() {
@@ -185,9 +211,16 @@ class Planner {
         task.job = job->name;
         task.recording = file.recording;
         task.configuration = configuration_;
-        if (job->uses_vehicle) task.vehicle = vehicle_of(file.path);
+        const PlannedVehicle vehicle = job->uses_vehicle ? vehicle_of(file.path) : PlannedVehicle{};
+        task.vehicle = vehicle.key;
+        if (vehicle.is_layout) {
+          if (!job->takes_layout)
+            throw std::invalid_argument(
+                fmt::format("--job {}: not for a vehicle with a layout", job->name));
+          if (std::ranges::count(nominals_, file.recording, &RecordingFile::recording) > 0) continue;
+        }
         if (job->uses_bank) {
-          task.bank_missions = request_.bank_missions;
+          task.bank_missions = vehicle.is_layout ? 0 : request_.bank_missions;
           task.bank_seed = request_.bank_seed;
         }
         if (known_.insert(identity_of(task)).second) wanted.push_back(std::move(task));
@@ -201,7 +234,7 @@ class Planner {
   void assign_banks(std::vector<Task>& tasks) {
     std::vector<Task*> users;
     for (Task& task : tasks) {
-      if (job_named(task.job).uses_bank) users.push_back(&task);
+      if (job_named(task.job).uses_bank && task.bank_missions > 0) users.push_back(&task);
     }
     std::vector<gap::MissionOutline> outlines(users.size());
     in_parallel_with_progress(request_.threads, users.size(), "comparing missions", progress_,
@@ -261,7 +294,8 @@ class Planner {
   std::string configuration_;
   FolderScan scan_;
   std::map<std::string, std::string> recordings_;  ///< path by hash
-  std::map<fs::path, std::string> vehicle_keys_;
+  std::vector<RecordingFile> nominals_;
+  std::map<fs::path, PlannedVehicle> vehicles_;
   std::set<TaskIdentity> known_;
   std::set<std::string> keys_;
   std::vector<Task> bank_tasks_;

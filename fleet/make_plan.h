@@ -13,10 +13,11 @@
 namespace navcal::fleet {
 
 struct PlanRequest {
-  std::filesystem::path recordings;  ///< folder
-  std::filesystem::path plan;        ///< folder; a plan that is there is extended
-  std::filesystem::path vehicle;     ///< of all recordings; empty: vehicle.toml near each of them
-  std::filesystem::path config;      ///< of all recordings; empty: their own
+  std::filesystem::path recordings;             ///< folder
+  std::filesystem::path plan;                   ///< folder; a plan that is there is extended
+  std::filesystem::path vehicle;                ///< of all recordings; empty: vehicle.toml near each of them
+  std::vector<std::filesystem::path> nominals;  ///< of a layout: its recordings without a gap
+  std::filesystem::path config;                 ///< of all recordings; empty: their own
   std::vector<std::string> jobs{"gap"};
   int bank_missions = gap::Request{}.bank_missions;
   std::uint64_t bank_seed = gap::Request{}.bank_seed;

@@ -47,6 +47,11 @@ MergeSummary fill(const Plan& plan, Database& database) {
 
 }  // namespace
 
+std::string words_of(const MergedJson& effect) {
+  const std::string part = text_in(effect, "of");
+  return text_in(effect, "name") + (part.empty() ? "" : " of " + part);
+}
+
 void make_merge_tables(Database& database) { database.execute(merge_tables()); }
 
 MergeTables::MergeTables(Database& database)
@@ -104,7 +109,7 @@ void MergeTables::add_gap(int task, const MergedJson& answer) {
 void MergeTables::add_effects(int task, const char* role, const MergedJson& effects) {
   int rank = 0;
   for (const MergedJson& effect : effects) {
-    const std::string name = text_in(effect, "name");
+    const std::string name = words_of(effect);
     effect_.run(task, role, ++rank, name, number_in(effect, "probability"));
     const MergedJson values = member_of(effect, "parameters"), errors = member_of(effect, "std_errors");
     for (const auto& [parameter, value] : values.items()) {

@@ -35,6 +35,9 @@ class MergeTables {
   Statement recording_, vehicle_, task_, gap_, where_, effect_, parameter_, calibrator_, quantity_;
 };
 
+/// "fin_gain", or "thrust_scale of thruster.2" of a layout.
+[[nodiscard]] std::string words_of(const nlohmann::ordered_json& effect);
+
 struct MergeSummary {
   std::size_t done = 0, failed = 0, open = 0;
 };

@@ -100,7 +100,7 @@ class Gathered {
     ++verdicts_[verdict];
     std::string effects;
     for (const PageJson& effect : answer.value("effects", PageJson::array())) {
-      const std::string name = effect.value("name", "");
+      const std::string name = words_of(effect);
       ++effects_[name];
       effects += (effects.empty() ? "" : ", ") + name;
     }

@@ -18,7 +18,7 @@ struct Task {
   int number = 0;   ///< from 1 on; stays when a plan is made anew
   std::string job;  ///< `gap`, `calibrate` ..., or `bank` for a null bank
   std::string recording;
-  std::string vehicle;        ///< empty: the job does not use it
+  std::string vehicle;        ///< a layout with its nominal recordings; empty: the job does not use it
   std::string configuration;  ///< empty: the recording's own
   std::string bank;           ///< key of the null bank that it makes or uses; empty: none
   int bank_missions = 0;
@@ -42,7 +42,8 @@ struct Plan {
   std::vector<Task> tasks;                          ///< in order of their numbers, which may have gaps
   std::map<std::string, RecordingFile> recordings;  ///< the file of each recording, by its hash; the first by path
   std::map<std::string, std::string> vehicles;      ///< TOML by its hash
-  std::map<std::string, std::string> configurations;  ///< TOML by its hash
+  std::map<std::string, std::vector<std::string>> nominals;  ///< recordings without a gap, by the vehicle's hash
+  std::map<std::string, std::string> configurations;         ///< TOML by its hash
 
   [[nodiscard]] const Task* task(int number) const;
   /// The task that makes this bank; null: none does.

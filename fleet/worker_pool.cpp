@@ -28,6 +28,7 @@
 #include "base/descriptor.h"
 #include "base/interruptible.h"
 #include "base/spawn.h"
+#include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "fleet/catalogue.h"
@@ -46,15 +47,15 @@ class NotNow : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The file of the recording, which must have the content that was planned.
-fs::path recording_of(const Plan& plan, const Task& task) {
-  const auto found = plan.recordings.find(task.recording);
+/// The file of a recording, which must have the content that was planned.
+fs::path file_of(const Plan& plan, const std::string& recording) {
+  const auto found = plan.recordings.find(recording);
   if (found == plan.recordings.end()) throw NotNow("the recording is gone");
   const RecordingFile& planned = found->second;
   RecordingFile now = planned;
   if (!look_at(now)) throw NotNow(planned.path + ": the file is gone; make the plan once more");
   const bool is_unchanged = now.bytes == planned.bytes && now.modified_ns == planned.modified_ns;
-  if (!is_unchanged && record::sha256_of_file(planned.path) != task.recording) {
+  if (!is_unchanged && record::sha256_of_file(planned.path) != recording) {
     throw NotNow(planned.path + ": it has changed since it was planned; make the plan once more");
   }
   return planned.path;
@@ -74,8 +75,17 @@ fs::path bank_used(const Plan& plan, const Task& task) {
 
 std::string answer_of(const Plan& plan, const Task& task, unsigned threads) {
   JobInput input;
-  input.recording = recording_of(plan, task);
-  if (!task.vehicle.empty()) input.vehicle = config::parse_vehicle(plan.vehicles.at(task.vehicle), "vehicle");
+  input.recording = file_of(plan, task.recording);
+  if (!task.vehicle.empty()) {
+    const std::string& toml = plan.vehicles.at(task.vehicle);
+    if (config::is_layout(toml)) {
+      input.layout = config::parse_layout(toml, "vehicle");
+    } else {
+      input.vehicle = config::parse_vehicle(toml, "vehicle");
+    }
+    if (const auto found = plan.nominals.find(task.vehicle); found != plan.nominals.end())
+      for (const std::string& nominal : found->second) input.nominals.push_back(file_of(plan, nominal));
+  }
   if (!task.configuration.empty()) {
     input.settings = config::parse(plan.configurations.at(task.configuration), "configuration");
   }

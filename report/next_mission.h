@@ -12,6 +12,7 @@ namespace navcal::report {
 struct NextMissionSource {
   std::vector<std::string> recordings;
   std::vector<std::string> holdouts;
+  std::vector<std::string> nominals;  ///< of a layout
   std::string vehicle;  ///< empty: the reference vehicle
   std::string limits;   ///< empty: the defaults
   std::string mission;  ///< the file that is written

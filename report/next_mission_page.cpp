@@ -108,19 +108,22 @@ void append_strengths(HtmlPage& page, const gap::NextMission& next) {
 void append_limits(HtmlPage& page, const gap::NextMission& next) {
   const auto& most = next.extremes;
   const auto& limits = next.limits;
-  const auto row = [](const char* name, double value, double limit, const char* unit) {
-    return std::vector<std::string>{name, fmt::format("{:.3g} {}", value, unit),
-                                    fmt::format("{:.3g} {}", limit, unit)};
+  std::vector<std::vector<std::string>> rows;
+  const auto row = [&](const char* name, std::optional<double> value, double limit, const char* unit,
+                       double scale = 1) {
+    if (value)
+      rows.push_back(
+          {name, fmt::format("{:.3g} {}", scale * *value, unit), fmt::format("{:.3g} {}", scale * limit, unit)});
   };
+  row("Duration", most.duration_s / 60, limits.duration_s / 60, "min");
+  row("Greatest depth", most.greatest_depth_m, limits.greatest_depth_m, "m");
+  row("Distance", most.range_m, limits.range_m, "m");
+  row("Speed", most.speed_m_s, limits.speed_m_s, "m/s");
+  row("Shaft", most.shaft_rps, limits.shaft_rps, "rpm", 60);
+  row("Rate of turn", most.turn_rad_s, limits.turn_rad_s, "deg/s", base::kDegreesPerRadian);
+  row("Energy", most.energy_Wh, limits.energy_Wh, "Wh");
   page.section("Limits");
-  page.table({"", "Mission", "Limit"}, {row("Duration", most.duration_s / 60, limits.duration_s / 60, "min"),
-                                        row("Greatest depth", most.greatest_depth_m, limits.greatest_depth_m, "m"),
-                                        row("Distance", most.range_m, limits.range_m, "m"),
-                                        row("Speed", most.speed_m_s, limits.speed_m_s, "m/s"),
-                                        row("Shaft", 60 * most.shaft_rps, 60 * limits.shaft_rps, "rpm"),
-                                        row("Rate of turn", most.turn_rad_s * base::kDegreesPerRadian,
-                                            limits.turn_rad_s * base::kDegreesPerRadian, "deg/s"),
-                                        row("Energy", most.energy_Wh, limits.energy_Wh, "Wh")});
+  page.table({"", "Mission", "Limit"}, rows);
 }
 
 }  // namespace
@@ -150,6 +153,7 @@ std::string next_mission_page(const gap::NextMission& next, const NextMissionSou
   rows.clear();
   for (const auto& file : source.recordings) rows.push_back({"Recording", file});
   for (const auto& file : source.holdouts) rows.push_back({"Held out", file});
+  for (const auto& file : source.nominals) rows.push_back({"Nominal", file});
   rows.push_back({"Nominal vehicle", source.vehicle.empty() ? "the reference vehicle" : source.vehicle});
   rows.push_back({"Limits", source.limits.empty() ? "the usual ones" : source.limits});
   rows.push_back({"Program", "navcal " NAVCAL_VERSION});

@@ -20,9 +20,9 @@ PlanJson json_of_extremes(const gap::PathExtremes& extremes) {
   return {{"depth_m", {extremes.least_depth_m, extremes.greatest_depth_m}},
           {"range_m", extremes.range_m},
           {"speed_m_s", extremes.speed_m_s},
-          {"shaft_rpm", 60 * extremes.shaft_rps},
+          {"shaft_rpm", extremes.shaft_rps ? PlanJson(60 * *extremes.shaft_rps) : PlanJson()},
           {"turn_deg_s", extremes.turn_rad_s * base::kDegreesPerRadian},
-          {"energy_Wh", extremes.energy_Wh}};
+          {"energy_Wh", plan_number(extremes.energy_Wh)}};
 }
 
 std::string strength_word(const std::optional<double>& strength) {
@@ -96,14 +96,15 @@ std::string next_mission_text(const gap::NextMission& next, const NextMissionSou
                  next.manoeuvres.size());
   for (const std::string& manoeuvre : next.manoeuvres) fmt::format_to(at, "           {}\n", manoeuvre);
   const auto& most = next.extremes;
-  fmt::format_to(at, "within     depth {:.2f} m, {:.0f} m away, {:.2f} m/s, {:.0f} deg/s, {:.1f} Wh\n",
-                 most.greatest_depth_m, most.range_m, most.speed_m_s, most.turn_rad_s * base::kDegreesPerRadian,
-                 most.energy_Wh);
-  fmt::format_to(at, "to try it  navcal simulate --mission {} -o next.cap\n", source.mission);
+  fmt::format_to(at, "within     depth {:.2f} m, {:.0f} m away, {:.2f} m/s, {:.0f} deg/s", most.greatest_depth_m,
+                 most.range_m, most.speed_m_s, most.turn_rad_s * base::kDegreesPerRadian);
+  if (most.energy_Wh) fmt::format_to(at, ", {:.1f} Wh", *most.energy_Wh);
+  const std::string vehicle = source.vehicle.empty() ? "" : " --vehicle " + source.vehicle;
+  fmt::format_to(at, "\nto try it  navcal simulate --mission {}{} -o next.cap\n", source.mission, vehicle);
   fmt::format_to(at, "then       navcal gap {} next.cap", fmt::join(source.recordings, " "));
+  for (const std::string& file : source.nominals) fmt::format_to(at, " --nominal {}", file);
   for (const std::string& file : source.holdouts) fmt::format_to(at, " --holdout {}", file);
-  if (!source.vehicle.empty()) fmt::format_to(at, " --vehicle {}", source.vehicle);
-  out += '\n';
+  out += vehicle + '\n';
   return out;
 }
 

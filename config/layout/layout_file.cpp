@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "config/complaints.h"
+#include "config/document.h"
 #include "config/layout/layout_table.h"
 
 namespace navcal::config {
@@ -141,6 +143,15 @@ Layout parse_layout(std::string_view toml, std::string_view name) {
   Layout layout = read_layout(toml, problems);
   refuse(std::move(problems), name);
   return layout;
+}
+
+bool is_layout(std::string_view toml) {
+  constexpr std::array<std::string_view, 6> kTables{"body",    "added_mass", "thruster",
+                                                    "surface", "ballast",    "moving_mass"};
+  std::vector<Problem> problems;
+  return std::ranges::any_of(read_document(toml, problems), [&](const Entry& entry) {
+    return std::find(kTables.begin(), kTables.end(), entry.keys.front()) != kTables.end();
+  });
 }
 
 Layout load_layout(const std::filesystem::path& file) { return parse_layout(content_of(file), file.native()); }

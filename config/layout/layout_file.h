@@ -20,6 +20,10 @@ inline constexpr std::size_t kMaxLayout = 64 << 10;
 [[nodiscard]] Layout load_layout(const std::filesystem::path& file);
 [[nodiscard]] Layout parse_layout(std::string_view toml, std::string_view name);
 
+/// Whether a file describes a layout: it has one of the tables body, added_mass, thruster, surface, ballast and
+/// moving_mass. Else it is a vehicle file.
+[[nodiscard]] bool is_layout(std::string_view toml);
+
 /// The same without an exception: notes problems.
 [[nodiscard]] Layout read_layout(std::string_view toml, std::vector<Problem>& problems);
 

@@ -19,12 +19,15 @@ struct Segment {
 
 /// Speeds and depths that the manoeuvres use, within the limits with a margin for overshoot.
 struct Regime {
-  double slow_rps = 0, cruise_rps = 0, fast_rps = 0;
+  bool by_shaft = true;  ///< speeds are those of the shaft, 1/s; else m/s
+  double slow = 0, cruise = 0, fast = 0;
   double working_m = 0, deep_m = 0;  ///< depths
   double gentle_rad_s = 0, brisk_rad_s = 0;
   bool surfaces = false;  ///< steps to the surface are within the limits
 };
 [[nodiscard]] Regime regime_of(const config::VehicleSettings& vehicle, const config::MissionLimits& limits);
+/// Of a vehicle whose missions have speeds through the water. `greatest_m_s`: that it can keep.
+[[nodiscard]] Regime regime_of(double greatest_m_s, const config::MissionLimits& limits);
 
 /// All manoeuvres. Whether each stays within the limits shows when it is simulated.
 [[nodiscard]] std::vector<Segment> alphabet(const Regime& regime);

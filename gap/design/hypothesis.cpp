@@ -71,12 +71,15 @@ Hypothesis make_hypothesis(const EffectSubset& effects, double probability, cons
     mean[j] = std::clamp(mean[j], unknown.least, unknown.greatest);
     covariance(j, j) += priors.model_error[j] * priors.model_error[j];
   }
-  // Scaled to ones on the diagonal, because the units differ by orders of magnitude.
+  return {effects, probability, std::move(mean), root_of(covariance)};
+}
+
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd std = covariance.diagonal().cwiseSqrt();
   Eigen::MatrixXd scaled = std.cwiseInverse().asDiagonal() * covariance * std.cwiseInverse().asDiagonal();
   scaled.diagonal().array() += 1e-9;
   const Eigen::MatrixXd lower = scaled.llt().matrixL();
-  return {effects, probability, std::move(mean), std.asDiagonal() * lower};
+  return std.asDiagonal() * lower;
 }
 
 double expected_separation_nats(const Hypothesis& truth, const Hypothesis& rival, const Eigen::MatrixXd& gram) {
@@ -120,7 +123,7 @@ double probability_exact(std::span<const Hypothesis> hypotheses, const Eigen::Ma
     const Hypothesis& of = hypotheses[truth];
     int named = 0;
     for (int n = 0; n < kOutcomes; ++n) {
-      const Eigen::VectorXd theta = of.mean + of.spread * draw(of.mean.size());
+      const Eigen::VectorXd theta = of.mean + of.spread * draw(of.spread.cols());
       const Eigen::VectorXd score = gram * theta + noise_factor * draw(of.mean.size());
       std::vector<double> logs;
       for (std::size_t i = 0; i < hypotheses.size(); ++i) {
@@ -135,22 +138,23 @@ double probability_exact(std::span<const Hypothesis> hypotheses, const Eigen::Ma
   return exact / total;
 }
 
-Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& gram, const Library& library, const Priors& priors,
-                                   double nats) {
+Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& gram, std::span<const TestedParameter> tested,
+                                   const Eigen::VectorXd& tolerances, double nats) {
   // 1/2 s^2 (G - G P^1/2 (1 + P^1/2 G P^1/2)^-1 P^1/2 G)_jj with the tolerances P of all others; that of j is
   // taken out by the rank-one identity 1/x' = 1/x - p_j.
-  const Eigen::VectorXd& prior = priors.spike;
-  Eigen::MatrixXd scaled = prior.asDiagonal() * gram * prior.asDiagonal();
+  Eigen::MatrixXd scaled = tolerances.asDiagonal() * gram * tolerances.asDiagonal();
   scaled.diagonal().array() += 1;
   const Eigen::LLT<Eigen::MatrixXd> factor(scaled);
-  const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd(prior.asDiagonal() * gram));
-  Eigen::VectorXd strengths = Eigen::VectorXd::Constant(gram.rows(), std::numeric_limits<double>::infinity());
-  for (const Eigen::Index j : library.moving()) {
-    if (j < Library::kBiases) continue;
+  const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd(tolerances.asDiagonal() * gram));
+  Eigen::VectorXd strengths =
+      Eigen::VectorXd::Constant(std::ssize(tested), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < tested.size(); ++i) {
+    const Eigen::Index j = tested[i].column;
     const double with = gram(j, j) - half.col(j).squaredNorm();
-    const double variance = with > 0 ? 1 / with - prior[j] * prior[j] : std::numeric_limits<double>::infinity();
-    if (!(variance > 0) || !std::isfinite(variance)) continue;
-    strengths[j] = std::sqrt(2 * nats * variance) / library.unknowns()[static_cast<std::size_t>(j)].typical;
+    const double own = tolerances[j] * tolerances[j];
+    const double variance = with > 0 ? 1 / with - own : std::numeric_limits<double>::infinity();
+    if (variance > 0 && std::isfinite(variance))
+      strengths[static_cast<Eigen::Index>(i)] = std::sqrt(2 * nats * variance) / tested[i].typical;
   }
   return strengths;
 }

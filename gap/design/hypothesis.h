@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <string>
 
 #include "gap/inference/effect_subset.h"
 #include "gap/inference/library.h"
@@ -30,6 +31,10 @@ struct Hypothesis {
 [[nodiscard]] Hypothesis make_hypothesis(const EffectSubset& effects, double probability,
                                          const Information& so_far, const Library& library, const Priors& priors);
 
+/// Lower triangular root of a covariance, scaled to ones on its diagonal before, because units differ by orders of
+/// magnitude.
+[[nodiscard]] Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance);
+
 /// Expected log Bayes factor, nats, for `truth` over `rival` from a mission with this Gram matrix of its design,
 /// if `truth` holds: the Kullback-Leibler divergence of the two predictive distributions of whitened residuals,
 ///   N(X m, 1 + X V X^T)  with mean m and covariance V of each hypothesis
@@ -46,9 +51,17 @@ struct Hypothesis {
 [[nodiscard]] double probability_exact(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram,
                                        double named_from);
 
-/// Smallest strength of each unknown, in typical values, that stands out by `nats` against all other effects of
-/// `library` within tolerance; infinite where the missions do not show it. `gram`: of all missions together.
-[[nodiscard]] Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& gram, const Library& library,
-                                                 const Priors& priors, double nats);
+/// A parameter of an effect whose smallest strength is asked for.
+struct TestedParameter {
+  std::size_t effect = 0;
+  std::string parameter;
+  Eigen::Index column = 0;  ///< among the unknowns
+  double typical = 1;       ///< unknown of strength 1
+};
+/// Smallest strength of each parameter, in typical values, that stands out by `nats` against all other unknowns
+/// within tolerance; infinite where the missions do not show it. `gram`: of all missions together.
+[[nodiscard]] Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& gram,
+                                                 std::span<const TestedParameter> tested,
+                                                 const Eigen::VectorXd& tolerances, double nats);
 
 }  // namespace navcal::gap

@@ -21,9 +21,9 @@ namespace {
 /// Probability from which a set counts as still probable.
 constexpr double kProbableFrom = 0.02;
 
-std::vector<std::string> names_of(const EffectSubset& effects, const Library& library) {
+std::vector<std::string> names_of(const EffectSubset& effects, const Question& question) {
   std::vector<std::string> names;
-  for (const std::size_t effect : effects) names.emplace_back(library[effect].name);
+  for (const std::size_t effect : effects) names.push_back(question.names[effect]);
   return names;
 }
 
@@ -34,17 +34,18 @@ std::string words_of(const std::vector<std::string>& effects) {
 void write_pairs(const Question& question, const Contribution& planned, NextMission& next) {
   const auto& sets = question.hypotheses;
   for (const Hypothesis& set : sets) {
-    next.sets.push_back({names_of(set.effects, question.library), set.probability});
+    next.sets.push_back({names_of(set.effects, question), set.probability});
     if (next.sets.size() == 1) next.probability_now = set.probability;
   }
+  const Eigen::MatrixXd gram = question.told_by(planned.gram);
   for (std::size_t a = 0; a < sets.size(); ++a) {
     for (std::size_t b = a + 1; b < sets.size(); ++b) {
       next.pairs.push_back({next.sets[a].effects, next.sets[b].effects,
-                            expected_separation_nats(sets[a], sets[b], planned.gram),
-                            expected_separation_nats(sets[b], sets[a], planned.gram)});
+                            expected_separation_nats(sets[a], sets[b], gram),
+                            expected_separation_nats(sets[b], sets[a], gram)});
     }
   }
-  next.probability_exact = probability_exact(sets, planned.gram, 1 - kMostRivals);
+  next.probability_exact = probability_exact(sets, gram, question.named_from);
 }
 
 std::optional<double> shown(double strength) {
@@ -53,19 +54,18 @@ std::optional<double> shown(double strength) {
 }
 
 void write_strengths(const Question& question, const Contribution& planned, NextMission& next) {
-  const Library& library = question.library;
   const Eigen::VectorXd before =
-      smallest_strengths(question.so_far.gram, library, question.priors, kObservable_nats);
-  const Eigen::VectorXd after = smallest_strengths(question.so_far.gram + without_biases(planned.gram), library,
-                                                   question.priors, kObservable_nats);
-  for (std::size_t effect = 0; effect < library.size(); ++effect) {
-    if (!library.holds(effect)) continue;
-    Eigen::Index weakest = library.first(effect);
-    for (Eigen::Index k = 1; k < library.count(effect); ++k) {
-      if (before[library.first(effect) + k] > before[weakest]) weakest = library.first(effect) + k;
+      question.smallest_strengths(Eigen::MatrixXd::Zero(planned.gram.rows(), planned.gram.cols()));
+  const Eigen::VectorXd after = question.smallest_strengths(planned.gram);
+  const auto& tested = question.tested;
+  for (std::size_t i = 0; i < tested.size();) {
+    // The weakest parameter of each effect.
+    Eigen::Index weakest = static_cast<Eigen::Index>(i);
+    const std::size_t effect = tested[i].effect;
+    for (; i < tested.size() && tested[i].effect == effect; ++i) {
+      if (before[static_cast<Eigen::Index>(i)] > before[weakest]) weakest = static_cast<Eigen::Index>(i);
     }
-    next.strengths.push_back({std::string(library[effect].name),
-                              std::string(library.unknowns()[static_cast<std::size_t>(weakest)].name),
+    next.strengths.push_back({question.names[effect], tested[static_cast<std::size_t>(weakest)].parameter,
                               shown(before[weakest]), shown(after[weakest])});
   }
   const auto value = [](const std::optional<double>& strength) { return strength.value_or(1e9); };
@@ -159,18 +159,15 @@ bool probable_are_apart(const NextMission& next) {
 constexpr double kDurationLeeway = 1.05;
 
 /// Whether the vehicle of each set, too, stays within the limits.
-void check_paths(const Question& question, const Study& study, NextMission& next) {
+void check_paths(const Question& question, const Rehearser& rehearser, NextMission& next) {
   // Seconds more or less depend on the vehicle, and hurt nobody.
   config::MissionLimits with_leeway = next.limits;
   with_leeway.duration_s *= kDurationLeeway;
   for (const Hypothesis& set : question.hypotheses) {
     if (set.effects.empty()) continue;
-    Eigen::VectorXd members = Eigen::VectorXd::Zero(set.mean.size());
-    for (const Eigen::Index j : parameter_indices(question.library, set.effects)) members[j] = set.mean[j];
-    const std::string name = words_of(names_of(set.effects, question.library));
+    const std::string name = words_of(names_of(set.effects, question));
     try {
-      const PlannedPath path = planned_path(study.request.vehicle, next.mission,
-                                            question.library.model(members).effects, next.limits.duration_s + 60);
+      const PlannedPath path = rehearser.path(next.mission, next.limits.duration_s + 60, &set);
       for (const std::string& text : violations(extremes_of(path, next.limits), with_leeway)) {
         next.remarks.push_back(fmt::format("a vehicle with {} would exceed a limit: {}", name, text));
       }
@@ -195,20 +192,10 @@ std::string_view name_of(MissionPurpose purpose) {
   return base::enum_name<MissionPurpose::sharpen>(purpose, {"separate", "cover", "sharpen"});
 }
 
-NextMission plan_next_mission(const Study& study, const config::MissionLimits& limits, const Progress& progress) {
-  if (!study.prepared || !study.found) {
-    throw std::invalid_argument(study.diagnosis.remarks.empty() ? "the recording cannot be diagnosed"
-                                                                : study.diagnosis.remarks.back());
-  }
+NextMission plan_next_mission(const Question& question, const Rehearser& rehearser,
+                              const config::MissionLimits& limits, const Progress& progress) {
   const auto began = std::chrono::steady_clock::now();
-  const unsigned threads = base::threads_or_cores(study.request.threads);
-  progress("weighing the sets", 0);
-  const Question question = question_of(study);
-  const RehearsalProblem problem{
-      study.request.vehicle,          study.library,
-      study.prepared->bank.whitening, {study.prepared->mission.instruments, study.prepared->mission.field},
-      question.curved_estimates(),    threads};
-  Planner planner(question, problem, limits, progress);
+  Planner planner(question, rehearser, limits, progress);
   RehearsedPlan best = planner.plan();
   NextMission next;
   next.purpose = question.purpose;
@@ -217,17 +204,33 @@ NextMission plan_next_mission(const Study& study, const config::MissionLimits& l
   next.mission.description = description_of(next);
   next.path = std::move(best.plan.path);
   next.extremes = extremes_of(next.path, limits);
-  const auto segments = alphabet(regime_of(study.request.vehicle, limits));
-  for (const PlacedSegment& each : best.plan.placed) next.manoeuvres.emplace_back(segments[each.segment].name);
+  for (const PlacedSegment& each : best.plan.placed)
+    next.manoeuvres.emplace_back(planner.segments()[each.segment].name);
   write_pairs(question, best.all, next);
   write_strengths(question, best.all, next);
   next.newly_covered = newly_covered(question.so_far.coverage, question.so_far.coverage + best.all.coverage);
   next.decides = next.purpose == MissionPurpose::separate && next.probability_exact >= 1 - kMostRivals &&
                  probable_are_apart(next);
   write_sentence(next);
-  check_paths(question, study, next);
+  check_paths(question, rehearser, next);
   next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return next;
+}
+
+NextMission plan_next_mission(const Study& study, const config::MissionLimits& limits, const Progress& progress) {
+  if (!study.prepared || !study.found) {
+    throw std::invalid_argument(study.diagnosis.remarks.empty() ? "the recording cannot be diagnosed"
+                                                                : study.diagnosis.remarks.back());
+  }
+  progress("weighing the sets", 0);
+  const Question question = question_of(study);
+  const ReferenceRehearser rehearser({study.request.vehicle,
+                                      study.library,
+                                      study.prepared->bank.whitening,
+                                      {study.prepared->mission.instruments, study.prepared->mission.field},
+                                      curved_estimates(question, study.library),
+                                      base::threads_or_cores(study.request.threads)});
+  return plan_next_mission(question, rehearser, limits, progress);
 }
 
 }  // namespace navcal::gap

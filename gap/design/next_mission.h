@@ -61,10 +61,17 @@ struct NextMission {
   [[nodiscard]] double minutes() const { return path.duration_s / 60; }
 };
 
-/// Plans the mission within the limits that separates best what is still probable after a diagnosis. Greedy
-/// selection of manoeuvres from an alphabet by their Gram matrices, exchange of single manoeuvres, and a
-/// simulation of the whole mission, by which all numbers are stated. Throws std::invalid_argument where the
-/// recording could not be diagnosed, or no mission fits the limits.
+struct Question;
+class Rehearser;
+
+/// Plans the mission within the limits that answers a question best. Greedy selection of manoeuvres from an
+/// alphabet by their Gram matrices, exchange of single manoeuvres, and a simulation of the whole mission, by which
+/// all numbers are stated. Throws std::invalid_argument where no mission fits the limits.
+[[nodiscard]] NextMission plan_next_mission(const Question& question, const Rehearser& rehearser,
+                                            const config::MissionLimits& limits, const Progress& progress);
+
+/// The mission that separates best what is still probable after a diagnosis. Throws std::invalid_argument where
+/// the recording could not be diagnosed, or no mission fits the limits.
 [[nodiscard]] NextMission plan_next_mission(const Study& study, const config::MissionLimits& limits,
                                             const Progress& progress);
 

@@ -14,13 +14,14 @@
 #include "gap/data/innovations.h"
 #include "gap/data/simulated_mission.h"
 #include "sim/vehicle/mission_helm.h"
-#include "sim/vehicle/simulated_motion.h"
 
 namespace navcal::gap {
 namespace {
 
 /// 2026-01-01; any full second would serve.
 constexpr std::int64_t kPlanBegin_ns = 1'767'225'600 * base::kSecond_ns;
+/// Up or down, whatever the limits: beyond it a vehicle is near standing on end.
+constexpr double kSteepest_deg = 45;
 /// Depth above which a step to the surface keeps the vehicle, m.
 constexpr double kAwash_m = 0.02;
 
@@ -54,19 +55,26 @@ void append(const sim::State& state, double time_s, PlannedPath& path) {
 
 PlannedPath planned_path(const config::VehicleSettings& vehicle, const config::Mission& mission,
                          const sim::EffectSet& effects, double longest_s) {
-  PlannedPath path;
   sim::EffectSet own = effects;
   auto helm = std::make_unique<sim::MissionHelm>(vehicle, once(mission));
   const sim::MissionHelm& under_way = *helm;
   const sim::SimulatedMotion motion(vehicle, std::move(helm), sim::MotionOptions{0, &own, 20});
+  PlannedPath path = path_of(
+      motion, [&] { return under_way.finished(); }, longest_s);
+  path.step_began_s = under_way.step_began_s();
+  return path;
+}
+
+PlannedPath path_of(const sim::SimulatedMotion& motion, const std::function<bool()>& is_finished,
+                    double longest_s) {
+  PlannedPath path;
   for (int i = 0;; ++i) {
     const double time_s = i * kInterval_s;
     const sim::State state = motion.at(std::llround(time_s * 1e9));
-    if (under_way.finished() || time_s > longest_s) break;
+    if (is_finished() || time_s > longest_s) break;
     append(state, time_s, path);
     path.duration_s = time_s + kInterval_s;
   }
-  path.step_began_s = under_way.step_began_s();
   return path;
 }
 
@@ -74,6 +82,7 @@ PathExtremes extremes_of(const PlannedPath& path, const config::MissionLimits& l
                          double until_s) {
   PathExtremes extremes;
   extremes.least_depth_m = 1e9;
+  if (path.has_card) extremes.shaft_rps = extremes.energy_Wh = 0;
   for (std::size_t i = 0; i < path.time_s.size(); ++i) {
     if (path.time_s[i] < from_s || path.time_s[i] >= until_s) continue;
     extremes.duration_s += kInterval_s;
@@ -81,26 +90,30 @@ PathExtremes extremes_of(const PlannedPath& path, const config::MissionLimits& l
     extremes.greatest_depth_m = std::max(extremes.greatest_depth_m, path.depth_m[i]);
     extremes.range_m = std::max(extremes.range_m, std::hypot(path.north_m[i], path.east_m[i]));
     extremes.speed_m_s = std::max(extremes.speed_m_s, path.speed_m_s[i]);
-    extremes.shaft_rps = std::max(extremes.shaft_rps, path.shaft_rps[i]);
     extremes.turn_rad_s = std::max(extremes.turn_rad_s, std::abs(path.turn_rad_s[i]));
-    extremes.energy_Wh += limits.supply_V * (path.current_A[i] + limits.hotel_A) * kInterval_s / 3600;
+    extremes.pitch_rad = std::max(extremes.pitch_rad, std::abs(path.pitch_rad[i]));
+    if (!path.has_card) continue;
+    extremes.shaft_rps = std::max(*extremes.shaft_rps, path.shaft_rps[i]);
+    *extremes.energy_Wh += limits.supply_V * (path.current_A[i] + limits.hotel_A) * kInterval_s / 3600;
   }
   return extremes;
 }
 
 std::vector<std::string> violations(const PathExtremes& extremes, const config::MissionLimits& limits) {
   std::vector<std::string> all;
-  const auto most = [&](std::string_view what, double value, double limit, std::string_view unit) {
-    if (value > limit)
-      all.push_back(fmt::format("{} {:.3g} {}, at most {:.3g} {}", what, value, unit, limit, unit));
+  const auto most = [&](std::string_view what, std::optional<double> value, double limit, std::string_view unit) {
+    if (value && *value > limit)
+      all.push_back(fmt::format("{} {:.3g} {}, at most {:.3g} {}", what, *value, unit, limit, unit));
   };
   most("duration", extremes.duration_s / 60, limits.duration_s / 60, "min");
   most("depth", extremes.greatest_depth_m, limits.greatest_depth_m, "m");
   most("distance", extremes.range_m, limits.range_m, "m");
   most("speed", extremes.speed_m_s, limits.speed_m_s, "m/s");
-  most("shaft speed", extremes.shaft_rps * 60, limits.shaft_rps * 60, "rpm");
+  most("shaft speed", extremes.shaft_rps ? std::optional(*extremes.shaft_rps * 60) : std::nullopt,
+       limits.shaft_rps * 60, "rpm");
   most("rate of turn", extremes.turn_rad_s * base::kDegreesPerRadian, limits.turn_rad_s * base::kDegreesPerRadian,
        "deg/s");
+  most("pitch", extremes.pitch_rad * base::kDegreesPerRadian, kSteepest_deg, "deg");
   most("energy", extremes.energy_Wh, limits.energy_Wh, "Wh");
   if (extremes.least_depth_m < limits.least_depth_m && limits.least_depth_m > 0.2) {
     all.push_back(fmt::format("depth {:.3g} m, at least {:.3g} m", extremes.least_depth_m, limits.least_depth_m));

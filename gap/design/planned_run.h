@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "config/vehicle.h"
 #include "gap/data/mission.h"
 #include "sim/effects/effect_set.h"
+#include "sim/vehicle/simulated_motion.h"
 
 namespace navcal::gap {
 
@@ -19,7 +22,14 @@ struct PlannedPath {
       shaft_rps, current_A;
   std::vector<double> step_began_s;  ///< of each step of the mission that began
   double duration_s = 0;             ///< until the last step ended
+  /// Shaft speed and current are known: the vehicle has a motor card.
+  bool has_card = true;
 };
+
+/// Path of a motion until its mission is finished or `longest_s` is over, without the begins of its steps. Throws
+/// sim::UnstableVehicle.
+[[nodiscard]] PlannedPath path_of(const sim::SimulatedMotion& motion, const std::function<bool()>& is_finished,
+                                  double longest_s);
 
 /// Sails a mission by its autopilot, once, without instruments. `effects`: departures of the vehicle from nominal.
 /// `longest_s`: the simulation ends there. Throws sim::UnstableVehicle.
@@ -28,8 +38,9 @@ struct PlannedPath {
 
 /// Extremes of a path, in the units of the limits.
 struct PathExtremes {
-  double duration_s = 0, least_depth_m = 0, greatest_depth_m = 0, range_m = 0, speed_m_s = 0, shaft_rps = 0,
-         turn_rad_s = 0, energy_Wh = 0;
+  double duration_s = 0, least_depth_m = 0, greatest_depth_m = 0, range_m = 0, speed_m_s = 0, turn_rad_s = 0,
+         pitch_rad = 0;
+  std::optional<double> shaft_rps, energy_Wh;  ///< of a vehicle with a motor card
 };
 [[nodiscard]] PathExtremes extremes_of(const PlannedPath& path, const config::MissionLimits& limits,
                                        double from_s = 0, double until_s = 1e9);

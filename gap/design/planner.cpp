@@ -10,22 +10,10 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
-#include "gap/inference/linearised.h"
-#include "gap/replay/replay.h"
 #include "sim/vehicle/body.h"
 
 namespace navcal::gap {
 namespace {
-
-/// Part of a mission that a time belongs to; -1 before the first.
-std::ptrdiff_t part_at(std::span<const double> began_s, double time_s) {
-  return std::upper_bound(began_s.begin(), began_s.end(), time_s) - began_s.begin() - 1;
-}
-
-/// Adds X_i^T X_i of the rows of each part.
-void add_rows(const Eigen::MatrixXd& design, Eigen::Index from, Eigen::Index count, Eigen::MatrixXd& gram) {
-  if (count > 0) gram.noalias() += design.middleRows(from, count).transpose() * design.middleRows(from, count);
-}
 
 /// Error bound at which a mission that separates needs no more manoeuvres: about 80 nats between all pairs,
 /// several times what decides, because predictions are not exact.
@@ -37,8 +25,8 @@ constexpr int kExchangesPerRound = 2;
 constexpr double kTurnBackFrom = 0.45;
 constexpr std::size_t kMostManoeuvres = 60;
 
-Contribution nothing(const Library& library) {
-  const auto n = static_cast<Eigen::Index>(library.unknowns().size());
+Contribution nothing(const Question& question) {
+  const Eigen::Index n = question.unknowns;
   return {Eigen::MatrixXd::Zero(n, n), no_coverage()};
 }
 
@@ -57,41 +45,14 @@ std::vector<double> part_begins(const Plan& plan) {
 
 }  // namespace
 
-Rehearsal rehearse(const RehearsalProblem& problem, const config::Mission& mission, double duration_s,
-                   std::span<const double> part_began_s) {
-  const Mission readings = planned_readings(problem.vehicle, mission, problem.instruments, duration_s);
-  const Replay replay(readings, problem.vehicle);
-  Trajectory10Hz course;
-  (void)replay.run(Model{}, &course);
-  const Eigen::VectorXd& at = problem.at;
-  const Linearised linear = linearise({replay, problem.library, problem.whitening, problem.threads}, at);
-  Rehearsal rehearsal;
-  rehearsal.gram = linear.gram;
-  rehearsal.parts.assign(part_began_s.size(), Eigen::MatrixXd::Zero(at.size(), at.size()));
-  if (part_began_s.empty() || course.time_s.empty()) return rehearsal;
-  base::in_parallel(problem.threads, part_began_s.size(), [&](std::size_t part) {
-    const auto row_of = [&](double time_s) {
-      const auto interval = std::lower_bound(course.time_s.begin(), course.time_s.end(), time_s);
-      return std::min<Eigen::Index>(interval - course.time_s.begin(), replay.intervals());
-    };
-    const Eigen::Index from = row_of(part_began_s[part]);
-    const Eigen::Index until =
-        part + 1 < part_began_s.size() ? row_of(part_began_s[part + 1]) : replay.intervals();
-    Eigen::MatrixXd& gram = rehearsal.parts[part];
-    add_rows(linear.design, from * kEvidenceChannels, (until - from) * kEvidenceChannels, gram);
-    const Eigen::Index fixes = replay.intervals() * kEvidenceChannels;
-    for (std::size_t i = 0; i < readings.fixes.size(); ++i) {
-      if (part_at(part_began_s, readings.fixes[i].time_s) != static_cast<std::ptrdiff_t>(part)) continue;
-      add_rows(linear.design, fixes + static_cast<Eigen::Index>(i) * kFixChannels, kFixChannels, gram);
-    }
-  });
-  return rehearsal;
-}
-
-Planner::Planner(const Question& question, const RehearsalProblem& problem, const config::MissionLimits& limits,
+Planner::Planner(const Question& question, const Rehearser& rehearser, const config::MissionLimits& limits,
                  const Progress& progress)
-    : question_(question), problem_(problem), limits_(limits), progress_(progress),
-      regime_(regime_of(problem.vehicle, limits)), alphabet_(alphabet(regime_)) {
+    : question_(question), rehearser_(rehearser), limits_(limits), progress_(progress),
+      regime_(rehearser.regime(limits)), alphabet_(alphabet(regime_)) {
+  const auto cannot = [&](const Segment& segment) {
+    return !rehearser_.can(compose({{0, 0}}, {segment}, regime_).mission);
+  };
+  alphabet_.erase(std::remove_if(alphabet_.begin(), alphabet_.end(), cannot), alphabet_.end());
   learn_alphabet();
   if (known_.empty()) {
     throw std::invalid_argument("no manoeuvre stays within the limits: allow more depth, speed or rate of turn");
@@ -101,25 +62,37 @@ Planner::Planner(const Question& question, const RehearsalProblem& problem, cons
 void Planner::learn_alphabet() {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < alphabet_.size(); ++i) all.push_back(i);
-  const std::size_t half = all.size() / 2;
-  progress_("manoeuvres", 0);
-  learn({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(half)});
-  progress_("manoeuvres", 0.5);
-  learn({all.begin() + static_cast<std::ptrdiff_t>(half), all.end()});
+  learn_halves(all);
+}
+
+void Planner::learn_halves(const std::vector<std::size_t>& segments) {
+  const auto middle = segments.begin() + std::ssize(segments) / 2;
+  for (const auto& half :
+       {std::vector<std::size_t>(segments.begin(), middle), std::vector<std::size_t>(middle, segments.end())}) {
+    if (half.empty()) continue;
+    progress_("manoeuvres", static_cast<double>(half.front()) / static_cast<double>(alphabet_.size()));
+    try {
+      learn(half);
+    } catch (const sim::UnstableVehicle&) {
+      // One of them upsets the vehicle.
+      if (half.size() > 1) learn_halves(half);
+    }
+  }
 }
 
 void Planner::learn(const std::vector<std::size_t>& segments) {
   Plan plan;
   for (const std::size_t segment : segments) plan.placed.push_back({segment, heading_of_nth(plan.placed.size())});
   plan.composed = compose(plan.placed, alphabet_, regime_);
-  plan.path = planned_path(problem_.vehicle, plan.composed.mission, sim::EffectSet(), 7200);
+  plan.path = rehearser_.path(plan.composed.mission, 7200);
   const auto begins_s = part_begins(plan);
-  const Rehearsal rehearsal = rehearse(problem_, plan.composed.mission, plan.path.duration_s, begins_s);
+  const Rehearsal rehearsal = rehearser_.rehearse(plan.composed.mission, plan.path.duration_s, begins_s);
   for (std::size_t i = 0; i < segments.size(); ++i) {
     PathExtremes extremes = extremes_of(plan.path, limits_, begins_s[i], begins_s[i + 1]);
     const double duration_s = extremes.duration_s;
     // Distances and sums are those of the mission in which the manoeuvre was learnt.
-    extremes.range_m = extremes.duration_s = extremes.energy_Wh = 0;
+    extremes.range_m = extremes.duration_s = 0;
+    extremes.energy_Wh.reset();
     if (!violations(extremes, limits_).empty() || !(duration_s > 0)) continue;
     known_.push_back(
         {segments[i], duration_s, {rehearsal.parts[i], coverage_of(plan.path, begins_s[i], begins_s[i + 1])}});
@@ -131,7 +104,7 @@ std::optional<Plan> Planner::within_limits(std::vector<PlacedSegment> placed) co
   plan.composed = compose(placed, alphabet_, regime_);
   plan.placed = std::move(placed);
   try {
-    plan.path = planned_path(problem_.vehicle, plan.composed.mission, sim::EffectSet(), limits_.duration_s + 1);
+    plan.path = rehearser_.path(plan.composed.mission, limits_.duration_s + 1);
   } catch (const sim::UnstableVehicle&) {
     return std::nullopt;
   }
@@ -159,12 +132,12 @@ Plan Planner::select() {
   auto begun = within_limits({});
   if (!begun) {
     const config::Mission shortest = compose({}, alphabet_, regime_).mission;
-    const PlannedPath path = planned_path(problem_.vehicle, shortest, sim::EffectSet(), limits_.duration_s + 1);
+    const PlannedPath path = rehearser_.path(shortest, limits_.duration_s + 1);
     throw std::invalid_argument(fmt::format("the limits are too narrow for any mission; the shortest has {}",
                                             fmt::join(violations(extremes_of(path, limits_), limits_), "; ")));
   }
   Plan plan = std::move(*begun);
-  Contribution sum = nothing(problem_.library);
+  Contribution sum = nothing(question_);
   std::vector<bool> refused(known_.size(), false);
   while (plan.placed.size() < kMostManoeuvres) {
     const double loss = question_.loss(sum);
@@ -196,7 +169,7 @@ Plan Planner::select() {
 RehearsedPlan Planner::rehearsed(Plan plan) const {
   RehearsedPlan result;
   const auto begins_s = part_begins(plan);
-  const Rehearsal rehearsal = rehearse(problem_, plan.composed.mission, plan.path.duration_s, begins_s);
+  const Rehearsal rehearsal = rehearser_.rehearse(plan.composed.mission, plan.path.duration_s, begins_s);
   result.all = {rehearsal.gram, coverage_of(plan.path, 0, plan.path.duration_s)};
   for (std::size_t i = 0; i < plan.placed.size(); ++i) {
     result.parts.push_back({rehearsal.parts[i], coverage_of(plan.path, begins_s[i], begins_s[i + 1])});

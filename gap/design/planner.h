@@ -1,41 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "gap/design/alphabet.h"
-#include "gap/design/planned_run.h"
 #include "gap/design/question.h"
-#include "gap/inference/library.h"
-#include "gap/inference/whitening.h"
+#include "gap/design/rehearser.h"
 
 namespace navcal::gap {
-
-/// What a mission is rehearsed with. References; valid as long as what they refer to.
-struct RehearsalProblem {
-  const config::VehicleSettings& vehicle;
-  const Library& library;
-  const Whitening& whitening;  ///< of the recordings' null bank
-  PlannedInstruments instruments;
-  /// Point of linearisation: zero but for curved effects (Library::is_curved), whose regressors at zero do not
-  /// describe their usual strength.
-  Eigen::VectorXd at;
-  unsigned threads = 1;
-};
-
-/// Gram matrices of the design of a simulated mission.
-struct Rehearsal {
-  Eigen::MatrixXd gram;                ///< of the whole mission
-  std::vector<Eigen::MatrixXd> parts;  ///< of each part
-};
-
-/// Simulates a mission of the nominal vehicle, replays and linearises it. `part_began_s`: the begins of its parts,
-/// in order; each ends where the next begins, the last with the mission. Throws sim::UnstableVehicle.
-[[nodiscard]] Rehearsal rehearse(const RehearsalProblem& problem, const config::Mission& mission,
-                                 double duration_s, std::span<const double> part_began_s);
 
 /// A composed mission that stays within the limits.
 struct Plan {
@@ -61,10 +35,12 @@ struct RehearsedPlan {
 class Planner {
  public:
   /// Keeps references. Throws std::invalid_argument where no manoeuvre stays within the limits.
-  Planner(const Question& question, const RehearsalProblem& problem, const config::MissionLimits& limits,
+  Planner(const Question& question, const Rehearser& rehearser, const config::MissionLimits& limits,
           const Progress& progress);
 
   [[nodiscard]] RehearsedPlan plan();
+  /// That plans are made of.
+  [[nodiscard]] const std::vector<Segment>& segments() const { return alphabet_; }
 
  private:
   /// A manoeuvre of the alphabet, as it was simulated.
@@ -74,6 +50,8 @@ class Planner {
     Contribution contribution;
   };
   void learn_alphabet();
+  /// Those that the vehicle survives.
+  void learn_halves(const std::vector<std::size_t>& segments);
   void learn(const std::vector<std::size_t>& segments);
   /// Greedy selection.
   [[nodiscard]] Plan select();
@@ -85,7 +63,7 @@ class Planner {
   [[nodiscard]] std::optional<Plan> exchanged(const RehearsedPlan& from) const;
 
   const Question& question_;
-  const RehearsalProblem& problem_;
+  const Rehearser& rehearser_;
   const config::MissionLimits& limits_;
   const Progress& progress_;
   Regime regime_;

@@ -84,6 +84,11 @@ Eigen::LLT<Eigen::MatrixXd> bias_factor_of(const Eigen::MatrixXd& gram) {
   return own.llt();
 }
 
+/// Gram matrix with the biases of the gyros projected out: each recording has its own.
+Eigen::MatrixXd without_biases(const Eigen::MatrixXd& gram) {
+  return gram - gram.leftCols<Library::kBiases>() * bias_factor_of(gram).solve(gram.topRows<Library::kBiases>());
+}
+
 Information information_of(const Study& study) {
   const Linearised& linear = study.found->found.best.linear;
   Information all{linear.gram, linear.score + linear.gram * linear.at};
@@ -111,28 +116,13 @@ Priors priors_of(const Study& study) {
   return priors;
 }
 
-struct WeighedSet {
-  EffectSubset effects;
-  double probability;
-};
-
 /// The sets that are still probable, and those of effects that the recordings could not show.
 std::vector<WeighedSet> sets_of(const Study& study) {
   std::vector<WeighedSet> sets;
-  const auto add = [&](const EffectSubset& effects, double probability) {
-    const bool there = std::ranges::any_of(sets, [&](const WeighedSet& set) { return set.effects == effects; });
-    if (!there && sets.size() < kMostSets) sets.push_back({effects, probability});
-  };
-  for (const Candidate& candidate : study.found->found.candidates) {
-    if (candidate.probability >= kCountedFrom) add(candidate.effects, candidate.probability);
-  }
-  for (const std::size_t hidden : study.found->unobservable) add({hidden}, kUnseenProbability);
-  const auto none = std::find_if(sets.begin(), sets.end(), [](const auto& set) { return set.effects.empty(); });
-  if (none == sets.end()) sets.push_back({{}, 1e-6});
-  double total = 0;
-  for (const WeighedSet& set : sets) total += set.probability;
-  for (WeighedSet& set : sets) set.probability /= total;
-  return sets;
+  for (const Candidate& candidate : study.found->found.candidates)
+    sets.push_back({candidate.effects, candidate.probability});
+  for (const std::size_t hidden : study.found->unobservable) sets.push_back({{hidden}, kUnseenProbability});
+  return weighed(sets, kCountedFrom);
 }
 
 MissionPurpose purpose_of(const Study& study) {
@@ -200,33 +190,42 @@ std::vector<std::string> newly_covered(const Coverage& before, const Coverage& a
   return words;
 }
 
-Eigen::MatrixXd without_biases(const Eigen::MatrixXd& gram) {
-  return gram - gram.leftCols<Library::kBiases>() * bias_factor_of(gram).solve(gram.topRows<Library::kBiases>());
-}
-
 double Question::loss(const Contribution& planned) const {
   switch (purpose) {
     case MissionPurpose::separate:
-      return log_error_bound(hypotheses, planned.gram) +
+      return log_error_bound(hypotheses, told_by(planned.gram)) +
              kLittleCoverage * coverage_loss(so_far.coverage + planned.coverage);
     case MissionPurpose::cover:
       return coverage_loss(so_far.coverage + planned.coverage) +
-             kSomeSeparation * std::max(kApartLog, log_error_bound(hypotheses, planned.gram));
+             kSomeSeparation * std::max(kApartLog, log_error_bound(hypotheses, told_by(planned.gram)));
     case MissionPurpose::sharpen: break;
   }
-  const Eigen::VectorXd strengths =
-      smallest_strengths(so_far.gram + without_biases(planned.gram), library, priors, kObservable_nats);
-  double sum = 0;
-  for (const Eigen::Index j : library.moving()) {
-    if (j >= Library::kBiases) sum += std::log(std::clamp(strengths[j], kSharpEnough, kNotShown));
-  }
-  return sum;
+  const Eigen::VectorXd strengths = smallest_strengths(planned.gram);
+  return strengths.cwiseMax(kSharpEnough).cwiseMin(kNotShown).array().log().sum();
 }
 
-Eigen::VectorXd Question::curved_estimates() const {
+Eigen::VectorXd Question::smallest_strengths(const Eigen::MatrixXd& planned) const {
+  return gap::smallest_strengths(so_far.gram + adds(planned), tested, tolerances, kObservable_nats);
+}
+
+void ask_about(const Library& library, const Priors& priors, Question& question) {
+  for (std::size_t effect = 0; effect < library.size(); ++effect) {
+    question.names.emplace_back(library[effect].name);
+    if (!library.holds(effect)) continue;
+    for (const Eigen::Index j : parameter_indices(library, {effect})) {
+      const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+      question.tested.push_back({effect, std::string(unknown.name), j, unknown.typical});
+    }
+  }
+  question.tolerances = priors.spike;
+  question.unknowns = std::ssize(library.unknowns());
+  question.adds = without_biases;
+}
+
+Eigen::VectorXd curved_estimates(const Question& question, const Library& library) {
   Eigen::VectorXd at = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
   // The most probable set that has an effect comes first.
-  for (const Hypothesis& set : hypotheses) {
+  for (const Hypothesis& set : question.hypotheses) {
     for (const std::size_t effect : set.effects) {
       if (!library.is_curved(effect)) continue;
       for (const Eigen::Index j : parameter_indices(library, {effect})) {
@@ -237,17 +236,32 @@ Eigen::VectorXd Question::curved_estimates() const {
   return at;
 }
 
+std::vector<WeighedSet> weighed(std::span<const WeighedSet> sets, double counted_from) {
+  std::vector<WeighedSet> counted;
+  for (const WeighedSet& set : sets) {
+    const bool there = std::ranges::any_of(counted, [&](const auto& one) { return one.effects == set.effects; });
+    if (!there && set.probability >= counted_from && counted.size() < kMostSets) counted.push_back(set);
+  }
+  const auto is_none = [](const WeighedSet& set) { return set.effects.empty(); };
+  if (std::none_of(counted.begin(), counted.end(), is_none)) counted.push_back({{}, 1e-6});
+  double total = 0;
+  for (const WeighedSet& set : counted) total += set.probability;
+  for (WeighedSet& set : counted) set.probability /= total;
+  return counted;
+}
+
 Question question_of(const Study& study) {
   const Library& library = study.library;
   const Information so_far = information_of(study);
-  Question question{purpose_of(study), {}, {}, library, priors_of(study)};
-  question.so_far.gram = so_far.gram;
-  question.so_far.coverage = coverage_of(study.prepared->course);
-  for (const auto& other : study.together) question.so_far.coverage += coverage_of(other->course);
-  for (const auto& other : study.holdouts) question.so_far.coverage += coverage_of(other->course);
-  for (const WeighedSet& set : sets_of(study)) {
-    question.hypotheses.push_back(make_hypothesis(set.effects, set.probability, so_far, library, question.priors));
-  }
+  const Priors priors = priors_of(study);
+  Question question;
+  question.purpose = purpose_of(study);
+  ask_about(library, priors, question);
+  question.so_far = {so_far.gram, coverage_of(study.prepared->course)};
+  for (const auto* others : {&study.together, &study.holdouts})
+    for (const auto& other : *others) question.so_far.coverage += coverage_of(other->course);
+  for (const WeighedSet& set : sets_of(study))
+    question.hypotheses.push_back(make_hypothesis(set.effects, set.probability, so_far, library, priors));
   return question;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "gap/design/hypothesis.h"
 #include "gap/design/next_mission.h"
 #include "gap/design/planned_run.h"
+#include "gap/thresholds.h"
 
 namespace navcal::gap {
 
@@ -44,17 +47,35 @@ struct Question {
   MissionPurpose purpose = MissionPurpose::separate;
   std::vector<Hypothesis> hypotheses;  ///< most probable first; the last may be no effect
   Contribution so_far;                 ///< of the recordings
-  const Library& library;
-  Priors priors;
+  std::vector<std::string> names;      ///< of all effects
+  std::vector<TestedParameter> tested;
+  Eigen::VectorXd tolerances;  ///< standard deviations of all unknowns without effects
+  /// Information that a mission adds to that of the recordings so far, by its Gram matrix: other unknowns are new
+  /// in each one.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> adds;
+  /// Gram matrix of a mission as the hypotheses have it; they may have fewer unknowns than a mission.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> told_by = [](const auto& gram) { return gram; };
+  Eigen::Index unknowns = 0;            ///< of a mission
+  double named_from = 1 - kMostRivals;  ///< probability of a set that makes it the answer
 
   /// Loss of a planned mission; smaller is better.
   [[nodiscard]] double loss(const Contribution& planned) const;
-  /// Point of linearisation of rehearsals (RehearsalProblem::at): curved members of the sets at their estimates.
-  [[nodiscard]] Eigen::VectorXd curved_estimates() const;
+  /// Smallest strengths of the tested parameters that stand out after a mission with this Gram matrix.
+  [[nodiscard]] Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& planned) const;
 };
 
-/// Gram matrix with the biases of the gyros projected out: each recording has its own.
-[[nodiscard]] Eigen::MatrixXd without_biases(const Eigen::MatrixXd& gram);
+/// What a library and its priors say of a question.
+void ask_about(const Library& library, const Priors& priors, Question& question);
+
+/// Point of linearisation of rehearsals (RehearsalProblem::at): curved members of the sets at their estimates.
+[[nodiscard]] Eigen::VectorXd curved_estimates(const Question& question, const Library& library);
+
+/// Sets are made probabilities of those that are counted, in order, at most six, with no effect among them.
+struct WeighedSet {
+  EffectSubset effects;
+  double probability;
+};
+[[nodiscard]] std::vector<WeighedSet> weighed(std::span<const WeighedSet> sets, double counted_from);
 
 [[nodiscard]] Question question_of(const Study& study);
 

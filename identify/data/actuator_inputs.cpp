@@ -158,13 +158,16 @@ std::vector<std::string> signals_of_surface(const config::Layout& layout, std::s
   return {fmt::format("fin_{}", movable + 1)};
 }
 
+bool is_position(const RecordedMotion& motion, const std::string& signal) {
+  return signal == "rpm" || (signal.starts_with("fin_") && motion.fins_are_reported);
+}
+
 ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator,
                                                const std::vector<std::string>& wanted) {
   for (const std::string& name : wanted) {
     const auto found = motion_.signals.find(name);
     if (found == motion_.signals.end() || found->second.empty()) continue;
-    const bool is_position = name == "rpm" || (name.starts_with("fin_") && motion_.fins_are_reported);
-    return {&found->second, is_position, name, nullptr};
+    return {&found->second, is_position(motion_, name), name, nullptr};
   }
   std::string names, there;
   for (const std::string& name : wanted) names += (names.empty() ? "" : " or ") + name;

@@ -39,6 +39,9 @@ class ActuatorTrajectory {
 [[nodiscard]] std::vector<std::string> signals_of_thruster(const config::Layout& layout, std::size_t thruster);
 [[nodiscard]] std::vector<std::string> signals_of_surface(const config::Layout& layout, std::size_t surface);
 
+/// Whether a signal says where an actuator was, and not what it was told.
+[[nodiscard]] bool is_position(const RecordedMotion& motion, const std::string& signal);
+
 /// Which recorded signal moves which actuator of a layout, and where the actuators were.
 ///
 /// A thruster in rpm follows "rpm" of the motor card, which is its position; without it "rpm_commanded", which is

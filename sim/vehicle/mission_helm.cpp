@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/vehicle/mission_helm.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace navcal::sim {
@@ -21,7 +20,7 @@ autopilot::VehicleState vehicle_state(const Body& body) {
 MissionHelm::MissionHelm(const config::VehicleSettings& vehicle, config::Mission mission)
     : period_s_(vehicle.autopilot.period_s), orders_(vehicle, std::move(mission)) {}
 
-void MissionHelm::next(double time_s, double step_s, const Body& body, Actuators& actuators) {
+void MissionHelm::next(double /*time_s*/, double step_s, const Body& body, Actuators& actuators) {
   orders_.add_way(body.velocity.head<3>().norm() * step_s);
   // Half a step: the sum of steps is no round number.
   if (until_orders_s_ < 0.5 * step_s) {
@@ -32,9 +31,6 @@ void MissionHelm::next(double time_s, double step_s, const Body& body, Actuators
     until_orders_s_ += period_s_;
   }
   until_orders_s_ -= step_s;
-  const std::size_t steps = orders_.mission().steps.size();
-  const std::size_t begun = finished() ? steps : std::min(steps, orders_.step() + 1);
-  if (step_began_s_.size() < begun) step_began_s_.resize(begun, time_s);
 }
 
 }  // namespace navcal::sim

@@ -31,13 +31,12 @@ class MissionHelm final : public Helm {
   void next(double time_s, double step_s, const Body& body, Actuators& actuators) override;
   [[nodiscard]] bool finished() const override { return orders_.finished(); }
   /// Times at which the steps began, so far.
-  [[nodiscard]] const std::vector<double>& step_began_s() const { return step_began_s_; }
+  [[nodiscard]] const std::vector<double>& step_began_s() const { return orders_.began_s(); }
 
  private:
   double period_s_;
   autopilot::MissionOrders orders_;
   double until_orders_s_ = 0;
-  std::vector<double> step_began_s_;
 };
 
 }  // namespace navcal::sim

@@ -38,6 +38,33 @@ TEST_F(GapNextProgram, PlansAMissionThatTheSimulatorSails) {
   EXPECT_EQ(run_navcal(next + "--overwrite"), 0) << said("err");
 }
 
+TEST_F(GapNextProgram, PlansForAVehicleWithALayoutWhoseSecondRecordingAgrees) {
+  const std::string vehicle = " --vehicle " NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml ";
+  std::ofstream(folder_ / "weak.toml") << "[thrust_scale]\nof = \"thruster.1\"\nscale = -0.3\n";
+  for (const char* options : {"survey --seconds 40 --seed 1 -o n1.cap", "survey --seconds 40 --seed 2 -o n2.cap",
+                              "survey --seconds 30 --seed 3 --effects weak.toml -o a.cap"})
+    ASSERT_EQ(run_navcal("simulate" + vehicle + "--mission " + options), 0) << said("err");
+  const std::string nominals = vehicle + "--nominal n1.cap --nominal n2.cap ";
+  ASSERT_EQ(run_navcal("gap next a.cap" + nominals + "--minutes 1 --mission-out next.toml --json next.json"), 0)
+      << said("err");
+  const auto plan = nlohmann::json::parse(said("next.json"));
+  EXPECT_TRUE(plan.at("extremes").at("shaft_rpm").is_null()) << "there is no motor card";
+  EXPECT_FALSE(plan.at("manoeuvres").empty());
+  EXPECT_LE(plan.at("minutes").get<double>(), 1.01);
+  ASSERT_EQ(run_navcal("simulate" + vehicle +
+                       "--mission ./next.toml --seconds 60 --seed 4 --effects weak.toml -o b.cap"),
+            0)
+      << said("err");
+  ASSERT_EQ(run_navcal("gap a.cap b.cap" + nominals + "--json after.json"), 0) << said("err");
+  const auto after = nlohmann::json::parse(said("after.json"));
+  EXPECT_EQ(after.at("verdict"), "explained") << after.at("sentence");
+  ASSERT_EQ(after.at("effects").size(), 1U) << after.at("sentence");
+  EXPECT_EQ(after.at("effects")[0].at("name"), "thrust_scale");
+  EXPECT_EQ(after.at("effects")[0].at("of"), "thruster.1");
+  EXPECT_FALSE(after.at("differences")[0].at("differs").get<bool>());
+  EXPECT_EQ(run_navcal("gap next a.cap --nominal n1.cap --mission-out n.toml"), 2) << "nominal ones need a layout";
+}
+
 TEST_F(GapNextProgram, SaysWhatIsWrong) {
   std::ofstream(folder_ / "bad.toml") << "[limits]\nminuts = 3\n";
   std::ofstream(folder_ / "x.cap") << "nothing\n";

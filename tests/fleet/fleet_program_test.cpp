@@ -140,6 +140,33 @@ TEST_F(FleetProgram, MissionsSteeredAlikeShareABankAndTheirAnswersAreThoseOfASer
   EXPECT_EQ(merged("serial.sqlite"), local);
 }
 
+TEST_F(FleetProgram, RecordingsOfALayoutAreDiagnosedBesideTheNominalOnes) {
+  const std::string layout = NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml";
+  fs::create_directories(folder_.recordings());
+  const auto simulate = [&](const fs::path& file, const char* seed, const char* effect) {
+    ASSERT_EQ(ended(started({NAVCAL_PROGRAM, "simulate", "--vehicle", layout, "--mission", "survey", "--seconds",
+                             "40", "--seed", seed, "--effect", effect, "-o", file.string()})),
+              0)
+        << err_;
+  };
+  simulate(folder_ / "n1.cap", "1", "thrust_scale=0");
+  simulate(folder_.recordings() / "n2.cap", "2", "thrust_scale=0");
+  simulate(folder_.recordings() / "weak.cap", "3", "thrust_scale@thruster.1=4");
+  const std::string first = (folder_ / "n1.cap").string(), second = (folder_.recordings() / "n2.cap").string();
+  plan({"--vehicle", layout, "--nominal", first, "--nominal", second});
+  EXPECT_NE(out_.find("1 tasks (1 new), 0 of them null banks"), std::string::npos) << out_;
+  ASSERT_EQ(run({"submit", folder_.plan().string(), "--local"}), 0) << err_;
+  const std::string merged_file = merged("layout.sqlite");
+  EXPECT_NE(merged_file.find("thrust_scale of thruster.1"), std::string::npos);
+  // Another floor is another diagnosis.
+  plan({"--vehicle", layout, "--nominal", first});
+  EXPECT_NE(out_.find("2 new"), std::string::npos) << out_;
+  EXPECT_EQ(run({"plan", folder_.recordings().string(), "-o", folder_.plan().string(), "--vehicle", layout,
+                 "--job", "evidence"}),
+            2);
+  EXPECT_EQ(run({"plan", folder_.recordings().string(), "-o", folder_.plan().string(), "--nominal", first}), 2);
+}
+
 TEST_F(FleetProgram, SlurmDoesAllTasksInArraysOfTheSizeItTakes) {
   add_recordings(7);
   plan({"--job", "calibrate"});

@@ -144,6 +144,8 @@ class LayoutMissionHelm final : public Helm {
   }
   void next(double time_s, double step_s, const Body& body, Actuators& actuators) override;
   [[nodiscard]] bool finished() const override { return steps_.finished(); }
+  /// Times at which the steps began, so far.
+  [[nodiscard]] const std::vector<double>& step_began_s() const { return steps_.began_s(); }
   [[nodiscard]] const ControlPlan& plan() const { return plan_; }
   /// What is less than the mission asks for: "speeds are held at 0.48 m/s, ..."; empty: nothing.
   [[nodiscard]] std::string remark() const;

@@ -11,20 +11,23 @@ PlannedQuestion::PlannedQuestion(const std::vector<std::string>& effects)
 
 Question PlannedQuestion::question(MissionPurpose purpose) const {
   const NullBank& bank = prepared_->bank;
-  Question question{purpose, {}, {}, library_, fit_spike_widths(library_, bank.gram, bank.scores)};
+  const Priors priors = fit_spike_widths(library_, bank.gram, bank.scores);
+  Question question;
+  question.purpose = purpose;
+  ask_about(library_, priors, question);
   question.so_far = {bank.gram, coverage_of(prepared_->course)};
   const auto n = static_cast<Eigen::Index>(library_.unknowns().size());
   const Information nothing{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   const double share = 1.0 / static_cast<double>(effects_.size() + 1);
   for (const std::string& name : effects_) {
     const EffectSubset set{index_of(library_, name)};
-    Hypothesis hypothesis = make_hypothesis(set, share, nothing, library_, question.priors);
+    Hypothesis hypothesis = make_hypothesis(set, share, nothing, library_, priors);
     for (const Eigen::Index j : parameter_indices(library_, set)) {
       hypothesis.mean[j] = library_.unknowns()[static_cast<std::size_t>(j)].typical;
     }
     question.hypotheses.push_back(std::move(hypothesis));
   }
-  question.hypotheses.push_back(make_hypothesis({}, share, nothing, library_, question.priors));
+  question.hypotheses.push_back(make_hypothesis({}, share, nothing, library_, priors));
   return question;
 }
 

@@ -23,7 +23,7 @@ class PlannedQuestion {
             library_,
             prepared_->bank.whitening,
             {{}, prepared_->mission.field},
-            question().curved_estimates(),
+            curved_estimates(question(), library_),
             2};
   }
   [[nodiscard]] const Library& library() const { return library_; }

@@ -29,8 +29,8 @@ const PlannedQuestion& fin_or_damping() {
 RehearsedPlan planned(const PlannedQuestion& of, const config::MissionLimits& limits,
                       MissionPurpose purpose = MissionPurpose::separate) {
   const Question question = of.question(purpose);
-  const RehearsalProblem problem = of.problem();
-  return Planner(question, problem, limits, kSilent).plan();
+  const ReferenceRehearser rehearser(of.problem());
+  return Planner(question, rehearser, limits, kSilent).plan();
 }
 
 TEST(Planner, TellsFinGainFromYawDampingByMovingTheRudder) {
