@@ -13,9 +13,9 @@ struct NextMissionSource {
   std::vector<std::string> recordings;
   std::vector<std::string> holdouts;
   std::vector<std::string> nominals;  ///< of a layout
-  std::string vehicle;  ///< empty: the reference vehicle
-  std::string limits;   ///< empty: the defaults
-  std::string mission;  ///< the file that is written
+  std::string vehicle;                ///< empty: the reference vehicle
+  std::string limits;                 ///< empty: the defaults
+  std::string mission;                ///< the file that is written
 };
 
 /// The plan as one JSON object (docs/gap.md); `mission` is the name of its file.
@@ -26,8 +26,5 @@ struct NextMissionSource {
 [[nodiscard]] std::string next_mission_page(const gap::NextMission& next, const NextMissionSource& source);
 /// Comment lines at the head of the mission file.
 [[nodiscard]] std::string next_mission_head(const gap::NextMission& next);
-
-/// A set of effects in words: "fin_gain + gyro_scale", "no effect".
-[[nodiscard]] std::string set_text(const std::vector<std::string>& effects);
 
 }  // namespace navcal::report

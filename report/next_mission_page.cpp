@@ -31,10 +31,10 @@ std::string plan_bar_html(std::string_view name, double value, std::string_view 
 Figure separation_figure(const gap::NextMission& next) {
   std::string html = "<div class=\"ranks\">\n";
   for (const auto& pair : next.pairs) {
-    html += plan_bar_html(set_text(pair.a) + " or " + set_text(pair.b),
+    html += plan_bar_html(gap::set_text(pair.a) + " or " + gap::set_text(pair.b),
                           std::min(pair.separation_nats, pair.reverse_nats), "nats",
                           fmt::format("{:.0f} nats if {} is true, {:.0f} if {}", pair.separation_nats,
-                                      set_text(pair.a), pair.reverse_nats, set_text(pair.b)));
+                                      gap::set_text(pair.a), pair.reverse_nats, gap::set_text(pair.b)));
   }
   html += "</div>\n";
   return {"Expected separation", std::move(html),
@@ -90,14 +90,10 @@ std::vector<Figure> planned_motion_figures(const gap::PlannedPath& path) {
   return figures;
 }
 
-std::string strength_cell(const std::optional<double>& strength) {
-  return strength ? fmt::format("{:.2f}", *strength) : "not shown";
-}
-
 void append_strengths(HtmlPage& page, const gap::NextMission& next) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& each : next.strengths) {
-    rows.push_back({each.effect, each.parameter, strength_cell(each.before), strength_cell(each.after)});
+    rows.push_back({each.effect, each.parameter, gap::strength_text(each.before), gap::strength_text(each.after)});
   }
   page.section("Smallest strength that shows");
   page.paragraph(

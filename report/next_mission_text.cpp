@@ -25,15 +25,7 @@ PlanJson json_of_extremes(const gap::PathExtremes& extremes) {
           {"energy_Wh", plan_number(extremes.energy_Wh)}};
 }
 
-std::string strength_word(const std::optional<double>& strength) {
-  return strength ? fmt::format("{:.2f}", *strength) : "not shown";
-}
-
 }  // namespace
-
-std::string set_text(const std::vector<std::string>& effects) {
-  return effects.empty() ? "no effect" : fmt::format("{}", fmt::join(effects, " + "));
-}
 
 std::string next_mission_json(const gap::NextMission& next, const NextMissionSource& source) {
   PlanJson pairs = PlanJson::array(), sets = PlanJson::array(), strengths = PlanJson::array();
@@ -76,16 +68,16 @@ std::string next_mission_text(const gap::NextMission& next, const NextMissionSou
     out += "\nexpected evidence, nats (for the first if it is true, for the second if that is)\n";
     for (std::size_t i = 0; i < std::min(kMostLines, next.pairs.size()); ++i) {
       const auto& pair = next.pairs[i];
-      fmt::format_to(at, "  {} or {}: {:.0f}, {:.0f}\n", set_text(pair.a), set_text(pair.b), pair.separation_nats,
-                     pair.reverse_nats);
+      fmt::format_to(at, "  {} or {}: {:.0f}, {:.0f}\n", gap::set_text(pair.a), gap::set_text(pair.b),
+                     pair.separation_nats, pair.reverse_nats);
     }
   }
   if (next.purpose == gap::MissionPurpose::sharpen) {
     out += "\nsmallest strength that shows, in typical strengths: so far, with this mission\n";
     for (std::size_t i = 0; i < std::min(kMostLines, next.strengths.size()); ++i) {
       const auto& each = next.strengths[i];
-      fmt::format_to(at, "  {} {}: {}, {}\n", each.effect, each.parameter, strength_word(each.before),
-                     strength_word(each.after));
+      fmt::format_to(at, "  {} {}: {}, {}\n", each.effect, each.parameter, gap::strength_text(each.before),
+                     gap::strength_text(each.after));
     }
   }
   for (const auto& remark : next.remarks) {

@@ -27,10 +27,6 @@ std::vector<std::string> names_of(const EffectSubset& effects, const Question& q
   return names;
 }
 
-std::string words_of(const std::vector<std::string>& effects) {
-  return effects.empty() ? "no effect" : fmt::format("{}", fmt::join(effects, " + "));
-}
-
 void write_pairs(const Question& question, const Contribution& planned, NextMission& next) {
   const auto& sets = question.hypotheses;
   for (const Hypothesis& set : sets) {
@@ -83,12 +79,12 @@ std::string separating_sentence(const NextMission& next) {
     return fmt::format(
         "The recordings leave one set probable, {} ({:.2f}). This mission of {:.1f} minutes tests it against the "
         "others: it stays the answer, if it is true, with probability {:.2f}.",
-        words_of(next.sets.front().effects), next.probability_now, next.minutes(), next.probability_exact);
+        set_text(next.sets.front().effects), next.probability_now, next.minutes(), next.probability_exact);
   }
   std::string closest;
   if (weakest != next.pairs.end()) {
-    closest = fmt::format(" Hardest to tell apart: {} and {}, {:.0f} nats.", words_of(weakest->a),
-                          words_of(weakest->b), std::min(weakest->separation_nats, weakest->reverse_nats));
+    closest = fmt::format(" Hardest to tell apart: {} and {}, {:.0f} nats.", set_text(weakest->a),
+                          set_text(weakest->b), std::min(weakest->separation_nats, weakest->reverse_nats));
   }
   if (next.decides) {
     return fmt::format(
@@ -116,10 +112,6 @@ std::string covering_sentence(const NextMission& next) {
                     static_cast<std::ptrdiff_t>(std::min<std::size_t>(5, next.newly_covered.size())),
                 ", "),
       next.newly_covered.size() > 5 ? " and others" : "");
-}
-
-std::string strength_text(const std::optional<double>& strength) {
-  return strength ? fmt::format("{:.2f}", *strength) : "not shown";
 }
 
 std::string sharpening_sentence(const NextMission& next) {
@@ -165,7 +157,7 @@ void check_paths(const Question& question, const Rehearser& rehearser, NextMissi
   with_leeway.duration_s *= kDurationLeeway;
   for (const Hypothesis& set : question.hypotheses) {
     if (set.effects.empty()) continue;
-    const std::string name = words_of(names_of(set.effects, question));
+    const std::string name = set_text(names_of(set.effects, question));
     try {
       const PlannedPath path = rehearser.path(next.mission, next.limits.duration_s + 60, &set);
       for (const std::string& text : violations(extremes_of(path, next.limits), with_leeway)) {
@@ -187,6 +179,14 @@ std::string description_of(const NextMission& next) {
 }
 
 }  // namespace
+
+std::string set_text(const std::vector<std::string>& effects) {
+  return effects.empty() ? "no effect" : fmt::format("{}", fmt::join(effects, " + "));
+}
+
+std::string strength_text(const std::optional<double>& strength) {
+  return strength ? fmt::format("{:.2f}", *strength) : "not shown";
+}
 
 std::string_view name_of(MissionPurpose purpose) {
   return base::enum_name<MissionPurpose::sharpen>(purpose, {"separate", "cover", "sharpen"});

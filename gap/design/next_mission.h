@@ -40,6 +40,11 @@ struct DetectableStrength {
   std::optional<double> before, after;  ///< by the recordings, and by them and the planned mission
 };
 
+/// A set of effects in words: "fin_gain + gyro_scale", "no effect".
+[[nodiscard]] std::string set_text(const std::vector<std::string>& effects);
+/// "0.85", "not shown".
+[[nodiscard]] std::string strength_text(const std::optional<double>& strength);
+
 struct NextMission {
   MissionPurpose purpose = MissionPurpose::separate;
   config::Mission mission;
