@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "protocols/decimal.h"
+
 namespace navcal::protocols::described {
 
 /// Rows of meanings.txt in the order of Meaning: name, unit of samples (`-`: any), least and greatest number.
@@ -22,13 +24,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kStandardGravity_m_s2 = 9.81;
 constexpr std::pair<std::string_view, double> kConstants[] = {
     {"pi", kPi}, {"degree", kPi / 180}, {"gravity", kStandardGravity_m_s2}};
-
-std::string_view take_word(std::string_view& text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \n"), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(" \n"));
-  text.remove_prefix(word.size());
-  return word;
-}
 
 /// "-1pi/2": a number, times a constant, over a number.
 double take_number(std::string_view& text) {
