@@ -18,15 +18,11 @@ constexpr ShortList<EffectParameter, 12> alike(std::string_view names, double ty
   return std::span<const EffectParameter>(parameters).first(count);
 }
 
-template <class E>
-std::unique_ptr<Effect> new_effect() {
-  return std::make_unique<E>();
-}
-
 /// Entries of the effects that one file of the library defines.
 template <class... E>
 std::span<const EffectEntry> entries_of() {
-  static constexpr std::array kEntries{EffectEntry{E::kName, &new_effect<E>}...};
+  static constexpr std::array kEntries{
+      EffectEntry{E::kName, []() -> std::unique_ptr<Effect> { return std::make_unique<E>(); }}...};
   return kEntries;
 }
 
