@@ -33,11 +33,8 @@ void write_position(FieldWriter& fields, const PositionFields& position) {
   fields.number("dop", position.dop, 2);
   fields.number("visible", position.visible);
   fields.number("tracked", position.tracked);
-  if (position.fix) {
-    fields.text("fix", name_of(*position.fix));
-  } else {
-    fields.null("fix");
-  }
+  if (!position.fix) return fields.null("fix");
+  fields.text("fix", name_of(*position.fix));
 }
 
 void write_out_of_range(FieldWriter& fields) { fields.flag("out_of_range", true); }

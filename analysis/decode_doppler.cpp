@@ -111,11 +111,8 @@ void write(FieldWriter& fields, const water_linked::Position& position) {
 
 template <class Decoded>
 void write_if_decoded(FieldWriter& fields, const Decoded& decoded) {
-  if (decoded) {
-    write(fields, *decoded);
-  } else {
-    write_out_of_range(fields);
-  }
+  if (decoded) return write(fields, *decoded);
+  write_out_of_range(fields);
 }
 
 }  // namespace

@@ -154,11 +154,8 @@ void FieldWriter::text(std::string_view key, std::string_view value) {
 }
 
 void FieldWriter::letter(std::string_view key, char value) {
-  if (value == '\0') {
-    null(key);
-  } else {
-    text(key, {&value, 1});
-  }
+  if (value == '\0') return null(key);
+  text(key, {&value, 1});
 }
 
 void FieldWriter::write_time(const protocols::TimeOfDay& time) {

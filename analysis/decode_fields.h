@@ -48,11 +48,8 @@ class FieldWriter {
   }
   template <class Number, class... Decimals>
   void number(std::string_view key, const std::optional<Number>& value, Decimals... decimals) {
-    if (value) {
-      number(key, *value, decimals...);
-    } else {
-      null(key);
-    }
+    if (!value) return null(key);
+    number(key, *value, decimals...);
   }
   void flag(std::string_view key, bool value) {
     begin_field(key);

@@ -24,11 +24,8 @@ void place_into(PositionFields& out, const std::optional<nmea::LatLon>& place) {
 
 // Sentences with a time and no date.
 void write_time_of_day(FieldWriter& fields, const std::optional<protocols::TimeOfDay>& time) {
-  if (time) {
-    fields.time_of_day("time_of_day", *time);
-  } else {
-    fields.null("time_of_day");
-  }
+  if (!time) return fields.null("time_of_day");
+  fields.time_of_day("time_of_day", *time);
 }
 
 void write(FieldWriter& fields, const nmea::Gga& gga) {

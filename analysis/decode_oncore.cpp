@@ -50,11 +50,7 @@ void write(FieldWriter& fields, const oncore::Position& position) {
   if (position.utc) {
     fields.flag("leap_known", position.utc->decoded);
     fields.flag("time_is_utc", position.utc->enabled && position.utc->decoded);
-    if (position.utc->decoded) {
-      fields.number("utc_offset_s", position.utc->offset_s);
-    } else {
-      fields.null("utc_offset_s");
-    }
+    fields.number("utc_offset_s", position.utc->decoded ? std::optional(position.utc->offset_s) : std::nullopt);
   }
   if (position.channel_count > 0) write_channels(fields, position);
 }
@@ -76,12 +72,9 @@ void write(FieldWriter& fields, const oncore::LeapAnnouncement& leap) {
   fields.number("present_s", leap.present_s);
   fields.number("future_s", leap.future_s);
   fields.flag("pending", leap.pending());
-  if (leap.in_range) {
-    fields.time("change", leap.date, leap.time);
-  } else {
-    fields.null("change");
-    write_out_of_range(fields);
-  }
+  if (leap.in_range) return fields.time("change", leap.date, leap.time);
+  fields.null("change");
+  write_out_of_range(fields);
 }
 
 void write(FieldWriter& fields, const oncore::TimeRaim& raim) {

@@ -55,11 +55,8 @@ void describe_tcm2(FieldWriter& fields, const protocols::Frame& frame) {
   } else if (frame.id == tcm2::kHchdm) {
     fields.number("heading_deg", tcm2::decode_hchdm(frame.bytes));
   } else if (frame.id == tcm2::kReply) {
-    if (const auto reply = tcm2::decode_reply(frame.bytes)) {
-      write(fields, *reply);
-    } else {
-      write_out_of_range(fields);
-    }
+    if (const auto reply = tcm2::decode_reply(frame.bytes)) return write(fields, *reply);
+    write_out_of_range(fields);
   }
 }
 

@@ -66,11 +66,8 @@ class EffectOption {
                                                 const config::Layout& layout, sim::Noise& noise) const {
     if (const auto why = sim::owner_refusal(layout, about, of_)) fail(*why);
     const auto parameters = sim::parameters_for(layout, about);
-    const sim::EffectDescription drawn{.name = about.name,
-                                       .equation = about.equation,
-                                       .parameters = std::span(parameters),
-                                       .manoeuvre = about.manoeuvre,
-                                       .vector = about.vector};
+    const auto drawn = sim::described(about.name, about.equation, std::span(parameters), about.manoeuvre,
+                                      {.vector = about.vector});
     sim::LayoutEffect effect{&about, std::string(of_), sim::drawn_parameters(drawn, strength_, noise)};
     expect_within(parameters, effect.values);
     return effect;

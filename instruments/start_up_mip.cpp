@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,25 +31,17 @@ constexpr double kUsualRate_Hz = 100;
 constexpr double kFilterShare = 0.2;
 constexpr std::uint16_t kUsualBase_Hz = 500;  // of a device that does not say
 
-// 04 acceleration, 05 rate, 06 field, 0C attitude of the complementary filter, D5 reference time, 12 GPS time.
-constexpr std::uint8_t kSensorAll[] = {0xD5, 0x04, 0x05, 0x06, 0x0C};
-constexpr std::uint8_t kSensorNoAttitude[] = {0xD5, 0x04, 0x05, 0x06};
-constexpr std::uint8_t kSensorGpsTime[] = {0x12, 0x04, 0x05, 0x06, 0x0C};
-constexpr std::uint8_t kSensorNoField[] = {0xD5, 0x04, 0x05};
-constexpr std::uint8_t kSensorLeast[] = {0x04, 0x05};
-// 05 attitude, 0A its standard errors, 10 state, 11 GPS time.
-constexpr std::uint8_t kFilterAll[] = {0xD5, 0x05, 0x0A, 0x10};
-constexpr std::uint8_t kFilterGpsTime[] = {0x11, 0x05, 0x0A, 0x10};
-constexpr std::uint8_t kFilterLeast[] = {0x05, 0x10};
+using FieldList = std::vector<std::uint8_t>;
+/// 04 acceleration, 05 rate, 06 field, 0C attitude of the complementary filter, D5 reference time, 12 GPS time.
+const std::array<FieldList, 5> kSensorLists{{{0xD5, 0x04, 0x05, 0x06, 0x0C},
+                                             {0xD5, 0x04, 0x05, 0x06},
+                                             {0x12, 0x04, 0x05, 0x06, 0x0C},
+                                             {0xD5, 0x04, 0x05},
+                                             {0x04, 0x05}}};
+/// 05 attitude, 0A its standard errors, 10 state, 11 GPS time.
+const std::array<FieldList, 3> kFilterLists{{{0xD5, 0x05, 0x0A, 0x10}, {0x11, 0x05, 0x0A, 0x10}, {0x05, 0x10}}};
 
-using FieldList = std::span<const std::uint8_t>;
-const std::array<FieldList, 5> kSensorLists{FieldList(kSensorAll), FieldList(kSensorNoAttitude),
-                                            FieldList(kSensorGpsTime), FieldList(kSensorNoField),
-                                            FieldList(kSensorLeast)};
-const std::array<FieldList, 3> kFilterLists{FieldList(kFilterAll), FieldList(kFilterGpsTime),
-                                            FieldList(kFilterLeast)};
-
-std::string list_text(FieldList list) {
+std::string list_text(const FieldList& list) {
   std::string text;
   for (const std::uint8_t one : list) {
     if (!text.empty()) text += ' ';

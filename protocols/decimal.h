@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
@@ -25,6 +26,14 @@ namespace navcal::protocols {
   if (error != std::errc{}) return std::nullopt;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;
+}
+
+/// Takes a word from the front of `text`, with the blanks and ends of lines before it. Empty: there is none.
+[[nodiscard]] constexpr std::string_view take_word(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \n"), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(" \n"));
+  text.remove_prefix(word.size());
+  return word;
 }
 
 /// The whole of `text` as a plain decimal number.

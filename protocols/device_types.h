@@ -73,144 +73,101 @@ struct DeviceType {
   bool heading_if_chosen = false;  ///< a true heading, too, of some set-ups: [roles] chooses it
 };
 
+/// The way of the device's bytes, as delivered.
+struct Wire {
+  int baud = 9600;
+  double latency_s = 0, latency_std_s = 0, rate_Hz = 0;
+};
+
+/// Row of a device with the first members of DeviceType as stated, and the others of `row`.
+constexpr DeviceType device(std::string_view name, const Wire& wire, DeviceType row) {
+  row.name = name;
+  row.baud = wire.baud;
+  row.latency_s = wire.latency_s;
+  row.latency_std_s = wire.latency_std_s;
+  row.rate_Hz = wire.rate_Hz;
+  return row;
+}
+
 /// One row for each device. Values that are not in the enumeration have a row without a name.
 constexpr DeviceType device_row(Protocol protocol) {
   switch (protocol) {
     case Protocol::tcm2:
-      return {.name = "tcm2",
-              .baud = 9600,
-              .latency_s = 0.050,
-              .latency_std_s = 0.002,
-              .rate_Hz = 10,
-              .delivers = {.heading = true, .field = true},
-              .options = {.units = true},
-              .vehicle = {"compass", 38400}};
+      return device("tcm2", {.baud = 9600, .latency_s = 0.050, .latency_std_s = 0.002, .rate_Hz = 10},
+                    {.delivers = {.heading = true, .field = true},
+                     .options = {.units = true},
+                     .vehicle = {"compass", 38400}});
     case Protocol::imu_card:
-      return {.name = "imu-card",
-              .baud = 57600,
-              .latency_s = 0.025,
-              .latency_std_s = 0.0005,
-              .rate_Hz = 20,
-              .delivers = {.rates = true, .acceleration = true, .depth = true},
-              .options = {.channels = true},
-              .vehicle = {"imu", 57600}};
+      return device("imu-card", {.baud = 57600, .latency_s = 0.025, .latency_std_s = 0.0005, .rate_Hz = 20},
+                    {.delivers = {.rates = true, .acceleration = true, .depth = true},
+                     .options = {.channels = true},
+                     .vehicle = {"imu", 57600}});
     case Protocol::oncore:
-      return {.name = "oncore",
-              .baud = 9600,
-              .latency_s = 0.300,
-              .latency_std_s = 0.020,
-              .rate_Hz = 1,
-              .delivers = {.position = true, .velocity = true},
-              .dates_roll_over = true,
-              .options = {.fix = true},
-              .vehicle = {"gps", 9600}};
+      return device("oncore", {.baud = 9600, .latency_s = 0.300, .latency_std_s = 0.020, .rate_Hz = 1},
+                    {.delivers = {.position = true, .velocity = true},
+                     .dates_roll_over = true,
+                     .options = {.fix = true},
+                     .vehicle = {"gps", 9600}});
     case Protocol::motor_card:
-      return {.name = "motor-card",
-              .baud = 19200,
-              .latency_s = 0.005,
-              .latency_std_s = 0.001,
-              .rate_Hz = 10,
-              .delivers = {.shaft = true},
-              .vehicle = {"motor", 19200}};
+      return device("motor-card", {.baud = 19200, .latency_s = 0.005, .latency_std_s = 0.001, .rate_Hz = 10},
+                    {.delivers = {.shaft = true}, .vehicle = {"motor", 19200}});
     case Protocol::nmea:
       // Receivers and compasses of all kinds: nothing is known of them but that they are not quicker than this.
-      return {.name = "nmea",
-              .baud = 4800,
-              .latency_std_s = 0.050,
-              .delivers = {.heading = true, .position = true, .velocity = true, .altitude = true},
-              .delivers_always = false,
-              .options = {.units = true, .fix = true}};
+      return device("nmea", {.baud = 4800, .latency_std_s = 0.050},
+                    {.delivers = {.heading = true, .position = true, .velocity = true, .altitude = true},
+                     .delivers_always = false,
+                     .options = {.units = true, .fix = true}});
     case Protocol::ubx:
-      return {.name = "ubx",
-              .baud = 38400,
-              .latency_s = 0.050,
-              .latency_std_s = 0.020,
-              .rate_Hz = 1,
-              .delivers = {.position = true, .velocity = true},
-              .options = {.fix = true},
-              .heading_if_chosen = true};
+      return device(
+          "ubx", {.baud = 38400, .latency_s = 0.050, .latency_std_s = 0.020, .rate_Hz = 1},
+          {.delivers = {.position = true, .velocity = true}, .options = {.fix = true}, .heading_if_chosen = true});
     case Protocol::mip:
-      return {.name = "mip",
-              .baud = 115200,
-              .latency_s = 0.003,
-              .latency_std_s = 0.001,
-              .rate_Hz = 100,
-              .delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
-              .delivers_always = false};
+      return device("mip", {.baud = 115200, .latency_s = 0.003, .latency_std_s = 0.001, .rate_Hz = 100},
+                    {.delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
+                     .delivers_always = false});
     case Protocol::vectornav:
-      return {.name = "vectornav",
-              .baud = 115200,
-              .latency_s = 0.003,
-              .latency_std_s = 0.001,
-              .rate_Hz = 40,
-              .delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
-              .delivers_always = false};
+      return device("vectornav", {.baud = 115200, .latency_s = 0.003, .latency_std_s = 0.001, .rate_Hz = 40},
+                    {.delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
+                     .delivers_always = false});
     case Protocol::pni:
-      return {.name = "pni",
-              .baud = 38400,
-              .latency_s = 0.030,
-              .latency_std_s = 0.005,
-              .rate_Hz = 10,
-              .delivers = {.heading = true, .field = true, .acceleration = true},
-              .delivers_always = false};
+      return device(
+          "pni", {.baud = 38400, .latency_s = 0.030, .latency_std_s = 0.005, .rate_Hz = 10},
+          {.delivers = {.heading = true, .field = true, .acceleration = true}, .delivers_always = false});
     case Protocol::pd0:
       // The ping rate of a Doppler log depends on the range to the bottom.
-      return {.name = "pd0",
-              .baud = 115200,
-              .latency_s = 0.100,
-              .latency_std_s = 0.050,
-              .delivers = {.heading = true,
-                           .depth = true,
-                           .altitude = true,
-                           .bottom_velocity = true,
-                           .water_velocity = true},
-              .delivers_always = false};
+      return device(
+          "pd0", {.baud = 115200, .latency_s = 0.100, .latency_std_s = 0.050},
+          {.delivers =
+               {.heading = true, .depth = true, .altitude = true, .bottom_velocity = true, .water_velocity = true},
+           .delivers_always = false});
     case Protocol::pd6:
-      return {.name = "pd6",
-              .baud = 115200,
-              .latency_s = 0.100,
-              .latency_std_s = 0.050,
-              .delivers = {.heading = true, .altitude = true, .bottom_velocity = true, .water_velocity = true},
-              .delivers_always = false};
+      return device(
+          "pd6", {.baud = 115200, .latency_s = 0.100, .latency_std_s = 0.050},
+          {.delivers = {.heading = true, .altitude = true, .bottom_velocity = true, .water_velocity = true},
+           .delivers_always = false});
     case Protocol::water_linked:
-      return {.name = "waterlinked",
-              .baud = 115200,
-              .latency_s = 0.100,
-              .latency_std_s = 0.050,
-              .delivers = {.altitude = true, .bottom_velocity = true},
-              .delivers_always = false};
+      return device("waterlinked", {.baud = 115200, .latency_s = 0.100, .latency_std_s = 0.050},
+                    {.delivers = {.altitude = true, .bottom_velocity = true}, .delivers_always = false});
     case Protocol::samples:
       // Whatever another program knows; it states the times of validity itself. No wire delays its lines.
-      return {.name = "samples",
-              .baud = 4'000'000,
-              .latency_std_s = 0.010,
-              .delivers = kEverything,
-              .delivers_always = false};
+      return device("samples", {.baud = 4'000'000, .latency_std_s = 0.010},
+                    {.delivers = kEverything, .delivers_always = false});
     case Protocol::paroscientific:
       // As delivered it integrates for 0.67 s and sends the mean.
-      return {.name = "paroscientific",
-              .baud = 9600,
-              .latency_s = 0.350,
-              .latency_std_s = 0.100,
-              .delivers = {.depth = true}};
+      return device("paroscientific", {.baud = 9600, .latency_s = 0.350, .latency_std_s = 0.100},
+                    {.delivers = {.depth = true}});
     case Protocol::keller:
       // It answers when it is asked: the host paces it.
-      return {
-          .name = "keller", .baud = 9600, .latency_s = 0.005, .latency_std_s = 0.005, .delivers = {.depth = true}};
+      return device("keller", {.baud = 9600, .latency_s = 0.005, .latency_std_s = 0.005},
+                    {.delivers = {.depth = true}});
     case Protocol::described:
       // What a file describes (protocols/described/): of a single device, its description says what it delivers.
-      return {.name = "described",
-              .baud = 9600,
-              .latency_std_s = 0.050,
-              .delivers = kEverything,
-              .delivers_always = false};
+      return device("described", {.baud = 9600, .latency_std_s = 0.050},
+                    {.delivers = kEverything, .delivers_always = false});
     case Protocol::mavlink:
       // The sensors behind an autopilot, most often through the network. It stamps as it sends.
-      return {.name = "mavlink",
-              .baud = 4'000'000,
-              .latency_std_s = 0.002,
-              .delivers = kOfAutopilot,
-              .delivers_always = false};
+      return device("mavlink", {.baud = 4'000'000, .latency_std_s = 0.002},
+                    {.delivers = kOfAutopilot, .delivers_always = false});
   }
   return {};
 }

@@ -92,40 +92,18 @@ constexpr Component kFloats[] = {Component::heading,        Component::pitch,   
 }  // namespace
 
 FrameId id_of(std::uint8_t number) {
-  // Names of the manual, by number.
-  constexpr std::string_view kNames[] = {"",
-                                         "GetModInfo",
-                                         "ModInfoResp",
-                                         "SetDataComponents",
-                                         "GetData",
-                                         "DataResp",
-                                         "SetConfig",
-                                         "GetConfig",
-                                         "ConfigResp",
-                                         "Save",
-                                         "StartCal",
-                                         "StopCal",
-                                         "SetParam",
-                                         "GetParam",
-                                         "ParamResp",
-                                         "PowerDown",
-                                         "SaveDone",
-                                         "UserCalSampCount",
-                                         "UserCalScore",
-                                         "SetConfigDone",
-                                         "SetParamDone",
-                                         "StartContinuous",
-                                         "StopContinuous",
-                                         "PowerUp",
-                                         "SetAcqParams",
-                                         "GetAcqParams",
-                                         "AcqParamsDone",
-                                         "AcqParamsResp",
-                                         "PowerDownDone",
-                                         "FactoryUserCal",
-                                         "FacUserCalDone",
-                                         "TakeUserCalSample"};
-  if (number > 0 && number < std::size(kNames)) return FrameId(kNames[number]);
+  // Names of the manual, by number from 1 on.
+  static constexpr auto kNames = [] {
+    std::string_view text =
+        "GetModInfo ModInfoResp SetDataComponents GetData DataResp SetConfig GetConfig ConfigResp Save "
+        "StartCal StopCal SetParam GetParam ParamResp PowerDown SaveDone UserCalSampCount UserCalScore "
+        "SetConfigDone SetParamDone StartContinuous StopContinuous PowerUp SetAcqParams GetAcqParams "
+        "AcqParamsDone AcqParamsResp PowerDownDone FactoryUserCal FacUserCalDone TakeUserCalSample";
+    std::array<std::string_view, 31> names;
+    for (std::string_view& name : names) name = take_word(text);
+    return names;
+  }();
+  if (number > 0 && number <= kNames.size()) return FrameId(kNames[number - 1]);
   std::string text;
   append_hex(text, number, 2);
   return FrameId(text);

@@ -15,6 +15,11 @@ namespace navcal::share {
 /// added.
 void add_manual(CLI::App& app);
 
+/// Gives options without a description theirs, and each command the words below its options, by `texts`: a section
+/// "== navcal log fetch" has a row "@--to folder for the logs" for each option, then the words. A section may name
+/// several commands: "== navcal log list, navcal log fetch".
+void set_help(CLI::App& app, const char* texts);
+
 /// Reads the command line, with --manual, and runs the program, after which the exit status is 0. 1: it cannot
 /// start, and standard error says why; 2: the command line is wrong. `check` throws CLI::ParseError for options
 /// that do not fit together.

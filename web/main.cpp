@@ -28,6 +28,10 @@
 #include "web/server.h"
 #include "web/site.h"
 
+namespace navcal::web {
+const char* option_texts();  // options.txt
+}
+
 namespace {
 
 namespace asio = boost::asio;
@@ -48,48 +52,30 @@ void add_outlet_options(CLI::App& app, web::OutletOptions& options) {
   const auto broker_problem = [](const std::string& text) {
     return web::mqtt_broker(text) ? std::string() : std::string("wants HOST or HOST:PORT");
   };
-  app.add_option("--vessel", options.vessel,
-                 "name of the vessel in Signal K, urn:mrn:imo:mmsi:NUMBER or urn:mrn:signalk:uuid:UUID; without "
-                 "it one that is derived from this machine")
-      ->check(CLI::Validator(web::problem_of_vessel, "NAME"));
-  app.add_option("--mqtt", options.mqtt.broker,
-                 "publishes to this MQTT broker; the port is 1883 unless it is given")
-      ->check(CLI::Validator(broker_problem, "HOST[:PORT]"));
-  app.add_option("--mqtt-topic-prefix", options.mqtt.prefix, "beginning of all MQTT topics")
+  app.add_option("--vessel", options.vessel)->check(CLI::Validator(web::problem_of_vessel, "NAME"));
+  app.add_option("--mqtt", options.mqtt.broker)->check(CLI::Validator(broker_problem, "HOST[:PORT]"));
+  app.add_option("--mqtt-topic-prefix", options.mqtt.prefix)
       ->check(CLI::Validator(web::problem_of_prefix, "PREFIX"))
       ->capture_default_str();
-  app.add_option("--mqtt-login-file", options.mqtt.login_file,
-                 "file with the user of the broker in the first line and the password in the second");
-  app.add_option("--mqtt-rate", options.mqtt.rate_Hz,
-                 "most messages a second of each MQTT topic; events come at once")
-      ->check(CLI::Range(0.01, 100.0))
-      ->capture_default_str();
-  app.add_option("--chrony", options.chrony_socket,
-                 "hands UTC from GPS to chronyd on this machine: path of the socket of its refclock SOCK");
+  app.add_option("--mqtt-login-file", options.mqtt.login_file);
+  app.add_option("--mqtt-rate", options.mqtt.rate_Hz)->check(CLI::Range(0.01, 100.0))->capture_default_str();
+  app.add_option("--chrony", options.chrony_socket);
 }
 
 void add_mavlink_options(CLI::App& app, web::MavlinkOptions& options) {
-  app.add_option("--mavlink", options.address,
-                 "sends to an autopilot or ground station: udp:ADDRESS:PORT (to whom sends there), tcp:HOST:PORT, "
-                 "tcp-listen:ADDRESS:PORT or the path of a serial port")
-      ->check(CLI::Validator(web::problem_of_mavlink_address, "ADDRESS"));
-  const auto add = [&app](const char* name, auto& value, auto least, auto most, const char* help) {
-    return app.add_option(name, value, help)->check(CLI::Range(least, most))->capture_default_str();
+  app.add_option("--mavlink", options.address)->check(CLI::Validator(web::problem_of_mavlink_address, "ADDRESS"));
+  const auto add = [&app](const char* name, auto& value, const CLI::Validator& check) {
+    app.add_option(name, value)->check(check)->capture_default_str();
   };
-  add("--mavlink-baud", options.baud, 50, 4'000'000, "speed of that serial port");
-  app.add_option("--mavlink-odometry-rate", options.odometry_Hz, "ODOMETRY a second: 10 to 20, or 0 for none")
-      ->check(CLI::Range(10.0, 20.0) | CLI::Range(0.0, 0.0))
-      ->capture_default_str();
-  add("--mavlink-gps-rate", options.gps_Hz, 0.0, 20.0, "GPS_INPUT a second, at most");
-  add("--mavlink-values-rate", options.values_Hz, 0.0, 20.0, "NAMED_VALUE_FLOAT a second of each figure, at most");
-  app.add_flag("--mavlink-texts,!--no-mavlink-texts", options.has_texts, "events as STATUSTEXT (the default)");
-  add("--mavlink-system", options.system, 1, 255, "system as which navcal-web sends: that of the vehicle");
-  add("--mavlink-component", options.component, 1, 255, "component of it");
-  add("--mavlink-tilt-std", options.tilt_std_deg, 0.0, 90.0,
-      "standard error of roll and pitch in degrees; 0: unknown, and ODOMETRY has no covariance");
-  app.add_option(
-      "--mavlink-key-file", options.key_file,
-      "file with the key of the signatures: 64 hexadecimal digits, or the text that the ground station was given");
+  add("--mavlink-baud", options.baud, CLI::Range(50, 4'000'000));
+  add("--mavlink-odometry-rate", options.odometry_Hz, CLI::Range(10.0, 20.0) | CLI::Range(0.0, 0.0));
+  add("--mavlink-gps-rate", options.gps_Hz, CLI::Range(0.0, 20.0));
+  add("--mavlink-values-rate", options.values_Hz, CLI::Range(0.0, 20.0));
+  app.add_flag("--mavlink-texts,!--no-mavlink-texts", options.has_texts);
+  add("--mavlink-system", options.system, CLI::Range(1, 255));
+  add("--mavlink-component", options.component, CLI::Range(1, 255));
+  add("--mavlink-tilt-std", options.tilt_std_deg, CLI::Range(0.0, 90.0));
+  app.add_option("--mavlink-key-file", options.key_file);
 }
 
 /// Throws CLI::ValidationError for options that do not fit `status`, where navcald is.
@@ -104,30 +90,19 @@ void check_outlet_options(const web::OutletOptions& options, std::string_view st
 
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", "navcal-web " NAVCAL_VERSION);
-  app.add_option("--port", options.port, "TCP port to listen at")->capture_default_str();
-  app.add_option("--address", options.address, "IP address to listen at; 0.0.0.0 or :: serves the whole network")
-      ->capture_default_str();
-  app.add_option("--status", options.status, "status socket of navcald, HOST:PORT")
-      ->capture_default_str()
-      ->check([](const std::string& text) { return web::status_socket(text) ? "" : "wants HOST:PORT"; });
-  app.add_option("--control", options.control, "control socket of navcald")->capture_default_str();
-  app.add_option("--token-file", options.token_file,
-                 "file with the token that changes of the vehicle need; without it everything is read-only");
-  app.add_option("--host-name", options.host_names,
-                 "name under which browsers reach this server, if it has a dot and does not end in .local; may be "
-                 "repeated")
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_option("--allow-origin", options.origins,
-                 "site whose pages may connect, as https://example.org; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_option("--track", options.track,
-                 "simulated track for the page: CSV with columns x and y, or lat and lon")
-      ->check(CLI::ExistingFile);
+  app.add_option("--port", options.port)->capture_default_str();
+  app.add_option("--address", options.address)->capture_default_str();
+  app.add_option("--status", options.status)->capture_default_str()->check([](const std::string& text) {
+    return web::status_socket(text) ? "" : "wants HOST:PORT";
+  });
+  app.add_option("--control", options.control)->capture_default_str();
+  app.add_option("--token-file", options.token_file);
+  app.add_option("--host-name", options.host_names)->take_all()->allow_extra_args(false);
+  app.add_option("--allow-origin", options.origins)->take_all()->allow_extra_args(false);
+  app.add_option("--track", options.track)->check(CLI::ExistingFile);
   add_outlet_options(app, options.outlets);
   add_mavlink_options(app, options.outlets.mavlink);
-  app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
+  navcal::share::set_help(app, web::option_texts());
 }
 
 void run(const Options& options) {

@@ -7,11 +7,6 @@
 
 namespace navcal::calib {
 
-double EllipseShape::heading_rad(const Eigen::Vector2d& field_uT) const {
-  const Eigen::Vector2d y = axes_uT.inverse() * (field_uT - centre_uT);
-  return std::atan2(-y.y(), y.x());
-}
-
 Eigen::Vector2d EllipseShape::foot(const Eigen::Vector2d& field_uT) const {
   const Eigen::Vector2d from_centre = field_uT - centre_uT;
   Eigen::Vector2d u = axes_uT.inverse() * from_centre;

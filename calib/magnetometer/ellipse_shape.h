@@ -39,7 +39,6 @@ struct EllipseShape {
   [[nodiscard]] static Eigen::Matrix<double, 2, kParameters> slope(double heading_rad) {
     return slope(direction(heading_rad));
   }
-  [[nodiscard]] double heading_rad(const Eigen::Vector2d& field_uT) const;
   /// u of the nearest point of the ellipse.
   [[nodiscard]] Eigen::Vector2d foot(const Eigen::Vector2d& field_uT) const;
   /// Its heading.

@@ -132,6 +132,19 @@ class AdaptiveUnit : public CalibratorUnit {
   double time_s_ = 0;       ///< of all steps
 };
 
+template <class Unit, auto member>
+constexpr CalibratorRow gyro_row(std::string_view name, std::string_view title) {
+  return {.name = name,
+          .title = title,
+          .needs = {.compass = true, .rate = true},
+          .needs_text = "a compass and an inertial card (protocol imu-card)",
+          .corrects = Corrects::rate,
+          .automatic = true,
+          .place = place_of<member>(),
+          .values = [](const Correction& correction) { return values_of_rate(*(correction.*member)); },
+          .make = make_unit<Unit>};
+}
+
 }  // namespace
 
 namespace calibrator_rows {
@@ -144,25 +157,7 @@ constinit const CalibratorRow adaptive{.name = "adaptive",
                                        .only_shown = true,
                                        .value_names = kRateNames,
                                        .make = make_unit<AdaptiveUnit>};
-constinit const CalibratorRow gyro{
-    .name = "gyro",
-    .title = "Gyro A",
-    .needs = {.compass = true, .rate = true},
-    .needs_text = "a compass and an inertial card (protocol imu-card)",
-    .corrects = Corrects::rate,
-    .automatic = true,
-    .place = place_of<&Correction::gyro>(),
-    .values = [](const Correction& correction) { return values_of_rate(*correction.gyro); },
-    .make = make_unit<GyroUnit>};
-constinit const CalibratorRow gyro_b{
-    .name = "gyro_b",
-    .title = "Gyro B",
-    .needs = {.compass = true, .rate = true},
-    .needs_text = "a compass and an inertial card (protocol imu-card)",
-    .corrects = Corrects::rate,
-    .automatic = true,
-    .place = place_of<&Correction::gyro_b>(),
-    .values = [](const Correction& correction) { return values_of_rate(*correction.gyro_b); },
-    .make = make_unit<GyroBUnit>};
+constinit const CalibratorRow gyro = gyro_row<GyroUnit, &Correction::gyro>("gyro", "Gyro A");
+constinit const CalibratorRow gyro_b = gyro_row<GyroBUnit, &Correction::gyro_b>("gyro_b", "Gyro B");
 }  // namespace calibrator_rows
 }  // namespace navcal::calib

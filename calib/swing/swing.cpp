@@ -132,17 +132,6 @@ std::optional<std::array<double, Swing::kHeadings>> Swing::table_rad() const {
   return table;
 }
 
-std::optional<double> Swing::deviation_rad(double measured_heading_rad) const {
-  const auto table = table_rad();
-  if (!table || !std::isfinite(measured_heading_rad)) return std::nullopt;
-  const double turns = measured_heading_rad / base::kTurn_rad;
-  const double place = (turns - std::floor(turns)) * kHeadings;
-  const double below = std::floor(place);
-  const std::size_t i = static_cast<std::size_t>(below) % kHeadings;
-  const double rise_rad = base::wrapped((*table)[(i + 1) % kHeadings] - (*table)[i]);
-  return base::wrapped((*table)[i] + (place - below) * rise_rad);
-}
-
 Judgement Swing::judgement() const {
   Judgement judgement;
   const auto seen = headings();

@@ -53,8 +53,6 @@ class Swing {
   /// The correction table: deviation at the measured headings 0, 45 .. 315 degrees; nullopt until all are there.
   /// From where the vehicle rested to the nominal heading it goes along the fitted curve.
   [[nodiscard]] std::optional<std::array<double, kHeadings>> table_rad() const;
-  /// Deviation at a measured heading, linear between the entries of the table.
-  [[nodiscard]] std::optional<double> deviation_rad(double measured_heading_rad) const;
   /// A..E; nullopt with fewer than five headings.
   [[nodiscard]] std::optional<Estimate> estimate() const;
   [[nodiscard]] Judgement judgement() const;

@@ -69,9 +69,7 @@ void add_ports_send_calibration(CLI::App& ports);
 /// Stands for a command that is not in this program, and says how to get it.
 void add_left_out(CLI::App& parent, const std::string& name);
 
-/// Gives options without a description theirs, and each command the words below its options, by command_help.txt:
-/// a section "== navcal log fetch" has a row "@--to folder for the logs" for each option, then the words. A
-/// section may name several commands: "== navcal log list, navcal log fetch".
+/// The texts of command_help.txt, by share::set_help.
 void set_help(CLI::App& app);
 
 /// All of them, with their words (written by cli/live/command_table.cmake).

@@ -61,10 +61,8 @@ struct ErrorSource {
 };
 [[nodiscard]] std::span<const ErrorSource> error_sources();
 
-inline constexpr sim::EffectDescription kTimedError{.name = "timed_error",
-                                                    .equation = "reading += a s(t)",
-                                                    .parameters = {{"amplitude", 1}},
-                                                    .manoeuvre = "the one in which s(t) varies most"};
+inline constexpr sim::EffectDescription kTimedError =
+    sim::described("timed_error", "reading += a s(t)", {{"amplitude", 1}}, "the one in which s(t) varies most");
 
 /// An error that follows a time series: amplitude times series. Between two of its values it is interpolated,
 /// outside it keeps the first or last.

@@ -1,51 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identify/replay/calibration.h"
 
+#include <charconv>
+
+#include "base/line_reader.h"
+#include "base/text_rows.h"
+
 namespace navcal::identify {
 
+/// Rows of nuisances.txt in the order of Nuisance: name, standard deviation and unit.
+const char* nuisance_rows();
+
 const std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)>& nuisances() {
-  static constexpr std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)> kAll{{
-      {"roll gyro bias", "rad/s", 0.005},
-      {"pitch gyro bias", "rad/s", 0.005},
-      {"yaw gyro bias", "rad/s", 0.005},
-      {"second yaw gyro bias", "rad/s", 0.005},
-      {"roll gyro scale", "", 0.02},
-      {"pitch gyro scale", "", 0.02},
-      {"yaw gyro scale", "", 0.02},
-      {"second yaw gyro scale", "", 0.02},
-      {"roll gyro drift", "rad/s2", 2e-6},
-      {"pitch gyro drift", "rad/s2", 2e-6},
-      {"yaw gyro drift", "rad/s2", 2e-6},
-      {"accelerometer bias x", "m/s2", 0.1},
-      {"accelerometer bias y", "m/s2", 0.1},
-      {"accelerometer bias z", "m/s2", 0.1},
-      {"accelerometer scale x", "", 0.005},
-      {"accelerometer scale y", "", 0.005},
-      {"accelerometer scale z", "", 0.005},
-      {"inertial unit's mounting about x", "rad", 0.02},
-      {"inertial unit's mounting about y", "rad", 0.02},
-      {"inertial unit's mounting about z", "rad", 0.02},
-      {"roll offset", "rad", 0.02},
-      {"pitch offset", "rad", 0.02},
-      {"heading offset", "rad", 0.5},
-      {"heading deviation, sine", "rad", 0.05},
-      {"heading deviation, cosine", "rad", 0.05},
-      {"dip", "rad", 0.02},
-      {"depth offset", "m", 0.2},
-      {"offset of the depth gauge", "m", 0.5},
-      {"scale of depth", "", 0.005},
-      {"Doppler scale", "", 0.01},
-      {"Doppler mounting about z", "rad", 0.02},
-      {"place of the antenna x", "m", 0.05},
-      {"place of the antenna y", "m", 0.05},
-      {"current north", "m/s", 0.3},
-      {"current east", "m/s", 0.3},
-      {"delay of the inertial unit", "s", 0.005},
-      {"delay of the heading", "s", 0.02},
-      {"delay of the Doppler log", "s", 0.02},
-      {"delay of the fixes", "s", 0.1},
-      {"delay of the actuators", "s", 0.02},
-  }};
+  static const auto kAll = [] {
+    std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)> all{};
+    const auto rows = base::text_rows(nuisance_rows(), ": ");
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto& [name, number] = rows.at(i);
+      const char* const end = number.data() + number.size();
+      const char* const unit = std::from_chars(number.data(), end, all[i].prior_std).ptr;
+      all[i].name = name;
+      all[i].unit = base::trimmed({unit, end});
+    }
+    return all;
+  }();
   return kAll;
 }
 

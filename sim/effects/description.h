@@ -74,12 +74,8 @@ class ShortList {
   std::size_t size_ = 0;
 };
 
-/// Static description of an effect, for people and for the search over all effects.
-struct EffectDescription {
-  std::string_view name;
-  std::string_view equation;
-  ShortList<EffectParameter, 12> parameters;
-  TellingManoeuvre manoeuvre;
+/// Members of EffectDescription that most effects leave as they are.
+struct EffectTraits {
   /// Names of effects whose traces are nearly the same by their equations. They are not results of a diagnosis.
   ShortList<std::string_view, 4> confounders = {};
   EffectPlace place = EffectPlace::instruments;
@@ -93,20 +89,18 @@ struct EffectDescription {
   EffectKind kind = EffectKind::amount;
 };
 
-/// Members of EffectDescription that most effects leave as they are.
-struct EffectTraits {
-  ShortList<std::string_view, 4> confounders = {};
-  EffectPlace place = EffectPlace::instruments;
-  std::size_t vector = 1;
-  int order = 3;
-  EffectKind kind = EffectKind::amount;
+/// Static description of an effect, for people and for the search over all effects.
+struct EffectDescription : EffectTraits {
+  std::string_view name;
+  std::string_view equation;
+  ShortList<EffectParameter, 12> parameters;
+  TellingManoeuvre manoeuvre;
 };
 
 [[nodiscard]] constexpr EffectDescription described(std::string_view name, std::string_view equation,
                                                     const ShortList<EffectParameter, 12>& parameters,
                                                     TellingManoeuvre manoeuvre, const EffectTraits& traits = {}) {
-  return {name,         equation,      parameters,   manoeuvre,  traits.confounders,
-          traits.place, traits.vector, traits.order, traits.kind};
+  return {traits, name, equation, parameters, manoeuvre};
 }
 
 }  // namespace navcal::sim

@@ -140,6 +140,11 @@ class MeasuringDevice : public Base {
       : Base(options.baud), options_(options), motion_(motion), noise_(options.seed) {}
 
  protected:
+  [[nodiscard]] Vector3 noisy(Vector3 values, double noise) {
+    for (double& value : values) value += noise_.normal(noise);
+    return values;
+  }
+
   Options options_;
   const Motion& motion_;
   Noise noise_;

@@ -52,13 +52,12 @@ class SampleSender final : public MeasuringDevice<SenderOptions> {
  private:
   void act(std::int64_t t_ns, std::vector<Emission>& out) override {
     const State state = motion_.at(t_ns);
-    Vector3 velocity_m_s = state.velocity_body_m_s;
-    for (double& component : velocity_m_s) component += noise_.normal(options_.velocity_noise_m_s);
-    std::string lines = line_at("DVL", t_ns)
-                            .text("frame", "body")
-                            .vector("bottom_velocity_m_s", velocity_m_s)
-                            .number("bottom_velocity_std_m_s", options_.velocity_noise_m_s)
-                            .finish();
+    std::string lines =
+        line_at("DVL", t_ns)
+            .text("frame", "body")
+            .vector("bottom_velocity_m_s", noisy(state.velocity_body_m_s, options_.velocity_noise_m_s))
+            .number("bottom_velocity_std_m_s", options_.velocity_noise_m_s)
+            .finish();
     lines += line_at("DEPTH", t_ns)
                  .number("depth_m", state.position_m[2] + noise_.normal(options_.depth_noise_m))
                  .number("depth_std_m", options_.depth_noise_m)

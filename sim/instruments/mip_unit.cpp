@@ -188,10 +188,6 @@ std::vector<std::uint8_t> MipUnit::packet(const Stream& stream) {
 }
 
 void MipUnit::put_sensor(const std::vector<std::uint8_t>& fields, const State& state, mip::Packet& packet) {
-  const auto noisy = [&](const Vector3& value, double noise) {
-    return mip::Triple{value[0] + noise_.normal(noise), value[1] + noise_.normal(noise),
-                       value[2] + noise_.normal(noise)};
-  };
   if (has(fields, 0x04))
     packet.acceleration_m_s2 = noisy(state.specific_force_m_s2, options_.imu.force_noise_m_s2);
   if (has(fields, 0x05)) {

@@ -133,16 +133,11 @@ void PniUnit::take_calibration_sample(std::int64_t t_ns) {
                                 .tilt_range_deg = tilt_range_deg}));
 }
 
-Vector3 PniUnit::field_uT(const State& state) {
-  Vector3 field = transpose(R_world_from_body(state.euler_rad)) * state.field_world_uT;
-  for (double& axis : field) axis += noise_.normal(options_.compass.field_noise_uT);
-  return field;
-}
-
 std::vector<std::uint8_t> PniUnit::data(std::int64_t t_ns) {
   const std::int64_t measured_ns = t_ns - kPniLatency_ns;
   const State state = motion_.at(measured_ns);
-  const Vector3 field = field_uT(state);
+  const Vector3 field =
+      noisy(transpose(R_world_from_body(state.euler_rad)) * state.field_world_uT, options_.compass.field_noise_uT);
   const double roll_rad = state.euler_rad[0] + noise_.normal(options_.compass.tilt_noise_rad);
   const double pitch_rad = state.euler_rad[1] + noise_.normal(options_.compass.tilt_noise_rad);
   // The field in level axes, which yaw with the vehicle.

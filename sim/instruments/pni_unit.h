@@ -43,7 +43,6 @@ class PniUnit final : public MeasuringDevice<PniOptions, CommandedDevice<protoco
   void start_calibration(std::int64_t t_ns);
   void take_calibration_sample(std::int64_t t_ns);
   void say(std::int64_t t_ns, std::vector<std::uint8_t> bytes) { answer(t_ns + kThinks_ns, std::move(bytes)); }
-  [[nodiscard]] Vector3 field_uT(const State& state);
   [[nodiscard]] std::vector<std::uint8_t> data(std::int64_t t_ns);
 
   Electronics electronics_;

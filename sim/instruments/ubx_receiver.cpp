@@ -135,8 +135,6 @@ std::vector<std::uint8_t> version_message(bool takes_valset) {
   return ubx::encode_mon_ver({"EXT CORE 3.01 (navcal)", "00080000", {"FWVER=EMU 3.01", "PROTVER=18.00"}});
 }
 
-namespace ubx = protocols::ubx;
-
 constexpr std::int64_t kUbxReply_ns = 20 * base::kMillisecond_ns;  // from a command to its answer
 
 /// The messages that it can send, in the order in which it sends them.

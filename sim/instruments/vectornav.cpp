@@ -105,10 +105,6 @@ std::uint8_t VectorNav::set_output(std::int64_t t_ns, const std::string& values)
 vn::Reading VectorNav::measure(std::int64_t sent_ns) {
   const std::int64_t t_ns = sent_ns - std::llround(options_.timing.latency_s * 1e9);
   const State state = motion_.at(t_ns);
-  const auto noisy = [this](Vector3 values, double noise) {
-    for (double& value : values) value += noise_.normal(noise);
-    return values;
-  };
   vn::Reading reading;
   const double own_ns = static_cast<double>(t_ns - powered_ns_) / (1 + options_.clock_ppm * 1e-6);
   reading.since_startup_ns = static_cast<std::uint64_t>(std::max(0.0, own_ns));

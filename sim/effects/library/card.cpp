@@ -4,17 +4,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kAccelBias = described(
-    "accel_bias", "f += b", {{"x_m_s2", 0.12, -20, 20}, {"y_m_s2", 0.12, -20, 20}, {"z_m_s2", 0.12, -20, 20}},
-    "pitch through more than 30 degrees", {.confounders = {"tilt_offset", "accel_scale"}, .vector = 3});
+constexpr EffectDescription kAccelBias =
+    described("accel_bias", "f += b", alike("x_m_s2 y_m_s2 z_m_s2", 0.12, -20, 20),
+              "pitch through more than 30 degrees", {.confounders = {"tilt_offset", "accel_scale"}, .vector = 3});
 /// The accelerometers' zeros are off.
 struct AccelBias final : EffectOf<AccelBias, kAccelBias> {
   void accelerometers(const Instant&, Vector3& force_m_s2) override { add_scaled(force_m_s2, 1, vector()); }
 };
 
-constexpr EffectDescription kAccelScale = described(
-    "accel_scale", "f += s f", {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}},
-    "pitch through more than 30 degrees", {.confounders = {"tilt_offset", "accel_bias", "thrust_scale"}});
+constexpr EffectDescription kAccelScale =
+    described("accel_scale", "f += s f", alike("x y z", 0.02, -0.9, 1), "pitch through more than 30 degrees",
+              {.confounders = {"tilt_offset", "accel_bias", "thrust_scale"}});
 /// Each accelerometer's scale is off.
 struct AccelScale final : EffectOf<AccelScale, kAccelScale> {
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
@@ -23,8 +23,7 @@ struct AccelScale final : EffectOf<AccelScale, kAccelScale> {
 };
 
 constexpr EffectDescription kAccelVibration =
-    described("accel_vibration", "f += k I^2",
-              {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}},
+    described("accel_vibration", "f += k I^2", alike("x_m_s2_per_A2 y_m_s2_per_A2 z_m_s2_per_A2", 0.05, -5, 5),
               "step the shaft speed through its whole range, straight and level",
               {.confounders = {"adc_droop"}, .vector = 3});
 /// The motor's vibration is rectified by the accelerometers.

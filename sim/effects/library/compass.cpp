@@ -23,8 +23,7 @@ struct CompassLag final : EffectOf<CompassLag, kCompassLag> {
 };
 
 constexpr EffectDescription kCompassMisalignment =
-    described("compass_misalignment", "m = (1 - [a]x) m, as a rotation",
-              {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}},
+    described("compass_misalignment", "m = (1 - [a]x) m, as a rotation", alike("x_deg y_deg z_deg", 3, -45, 45),
               "steer by GPS course and pitch up and down",
               {.confounders = {"tilt_offset", "declination", "hard_iron", "soft_iron"}, .vector = 3, .order = 1});
 /// The triad of magnetometers is turned by the vector a against body and inclinometer.
@@ -56,8 +55,7 @@ struct Declination final : EffectOf<Declination, kDeclination> {
 };
 
 constexpr EffectDescription kHardIron = described(
-    "hard_iron", "m += b", {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}},
-    "turn full circles with pitch of both signs",
+    "hard_iron", "m += b", alike("x_uT y_uT z_uT", 2, -200, 200), "turn full circles with pitch of both signs",
     {.confounders = {"soft_iron", "compass_misalignment", "motor_field", "mag_temperature"}, .vector = 3});
 /// Permanent magnetism of the vehicle.
 struct HardIron final : EffectOf<HardIron, kHardIron> {
@@ -65,8 +63,7 @@ struct HardIron final : EffectOf<HardIron, kHardIron> {
 };
 
 constexpr EffectDescription kMagTemperature = described(
-    "mag_temperature", "m += c T, T above 15 C",
-    {{"x_uT_per_C", 0.15, -10, 10}, {"y_uT_per_C", 0.15, -10, 10}, {"z_uT_per_C", 0.15, -10, 10}},
+    "mag_temperature", "m += c T, T above 15 C", alike("x_uT_per_C y_uT_per_C z_uT_per_C", 0.15, -10, 10),
     "let the electronics warm up with the motor off", {.confounders = {"hard_iron", "gyro_drift"}, .vector = 3});
 /// The magnetometers' zeros move as the electronics warm up.
 struct MagTemperature final : EffectOf<MagTemperature, kMagTemperature> {
@@ -91,8 +88,7 @@ struct MagneticHysteresis final : EffectOf<MagneticHysteresis, kMagneticHysteres
 };
 
 constexpr EffectDescription kMotorField = described(
-    "motor_field", "m += k I",
-    {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}},
+    "motor_field", "m += k I", alike("x_uT_per_A y_uT_per_A z_uT_per_A", 1, -50, 50),
     "step the motor current on a constant heading", {.confounders = {"hard_iron", "adc_droop"}, .vector = 3});
 /// The motor's supply makes a field of its own.
 struct MotorField final : EffectOf<MotorField, kMotorField> {

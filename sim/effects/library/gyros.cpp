@@ -9,18 +9,11 @@
 namespace navcal::sim {
 namespace {
 
-constexpr EffectDescription kGyroCrossAxis =
-    described("gyro_cross_axis", "w_i += k w_j",
-              {{"ax_from_y", 0.03, -0.5, 0.5},
-               {"ax_from_z", 0.03, -0.5, 0.5},
-               {"az_from_x", 0.03, -0.5, 0.5},
-               {"az_from_y", 0.03, -0.5, 0.5},
-               {"by_from_x", 0.03, -0.5, 0.5},
-               {"by_from_z", 0.03, -0.5, 0.5},
-               {"bz_from_x", 0.03, -0.5, 0.5},
-               {"bz_from_y", 0.03, -0.5, 0.5}},
-              "turn level, then turn pitched up",
-              {.confounders = {"compass_misalignment", "tilt_offset", "gyro_g_sensitivity"}});
+constexpr EffectDescription kGyroCrossAxis = described(
+    "gyro_cross_axis", "w_i += k w_j",
+    alike("ax_from_y ax_from_z az_from_x az_from_y by_from_x by_from_z bz_from_x bz_from_y", 0.03, -0.5, 0.5),
+    "turn level, then turn pitched up",
+    {.confounders = {"compass_misalignment", "tilt_offset", "gyro_g_sensitivity"}});
 /// Each gyro feels the rates about the two other axes.
 struct GyroCrossAxis final : EffectOf<GyroCrossAxis, kGyroCrossAxis> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
@@ -33,13 +26,9 @@ struct GyroCrossAxis final : EffectOf<GyroCrossAxis, kGyroCrossAxis> {
   }
 };
 
-constexpr EffectDescription kGyroDrift =
-    described("gyro_drift", "w += c t",
-              {{"deg_per_s2_ax", 0.001, -1, 1},
-               {"deg_per_s2_az", 0.001, -1, 1},
-               {"deg_per_s2_by", 0.001, -1, 1},
-               {"deg_per_s2_bz", 0.001, -1, 1}},
-              "run long straight legs", {.confounders = {"gyro_temperature"}});
+constexpr EffectDescription kGyroDrift = described(
+    "gyro_drift", "w += c t", alike("deg_per_s2_ax deg_per_s2_az deg_per_s2_by deg_per_s2_bz", 0.001, -1, 1),
+    "run long straight legs", {.confounders = {"gyro_temperature"}});
 /// Each gyro's zero drifts steadily from the beginning of the mission.
 struct GyroDrift final : EffectOf<GyroDrift, kGyroDrift> {
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
@@ -49,18 +38,10 @@ struct GyroDrift final : EffectOf<GyroDrift, kGyroDrift> {
 
 constexpr EffectDescription kGyroGSensitivity =
     described("gyro_g_sensitivity", "w_i += G_i . f",
-              {{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
-               {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
-               {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
-               {"az_x_deg_per_s_per_g", 0.6, -50, 50},
-               {"az_y_deg_per_s_per_g", 0.6, -50, 50},
-               {"az_z_deg_per_s_per_g", 0.6, -50, 50},
-               {"by_x_deg_per_s_per_g", 0.6, -50, 50},
-               {"by_y_deg_per_s_per_g", 0.6, -50, 50},
-               {"by_z_deg_per_s_per_g", 0.6, -50, 50},
-               {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
-               {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
-               {"bz_z_deg_per_s_per_g", 0.6, -50, 50}},
+              alike("ax_x_deg_per_s_per_g ax_y_deg_per_s_per_g ax_z_deg_per_s_per_g az_x_deg_per_s_per_g "
+                    "az_y_deg_per_s_per_g az_z_deg_per_s_per_g by_x_deg_per_s_per_g by_y_deg_per_s_per_g "
+                    "by_z_deg_per_s_per_g bz_x_deg_per_s_per_g bz_y_deg_per_s_per_g bz_z_deg_per_s_per_g",
+                    0.6, -50, 50),
               "hold a pitch without turning", {.confounders = {"tilt_offset", "gyro_cross_axis"}, .vector = 3});
 /// Each gyro feels the specific force, too.
 struct GyroGSensitivity final : EffectOf<GyroGSensitivity, kGyroGSensitivity> {
@@ -76,10 +57,7 @@ struct GyroGSensitivity final : EffectOf<GyroGSensitivity, kGyroGSensitivity> {
 
 constexpr EffectDescription kGyroNonlinearity =
     described("gyro_nonlinearity", "w += k w |w|",
-              {{"s_per_deg_ax", 0.0008, -0.01, 0.01},
-               {"s_per_deg_az", 0.0008, -0.01, 0.01},
-               {"s_per_deg_by", 0.0008, -0.01, 0.01},
-               {"s_per_deg_bz", 0.0008, -0.01, 0.01}},
+              alike("s_per_deg_ax s_per_deg_az s_per_deg_by s_per_deg_bz", 0.0008, -0.01, 0.01),
               "turn at two very different rates", {.confounders = {"gyro_scale"}});
 /// Each gyro's scale grows with the rate.
 struct GyroNonlinearity final : EffectOf<GyroNonlinearity, kGyroNonlinearity> {
@@ -91,12 +69,12 @@ struct GyroNonlinearity final : EffectOf<GyroNonlinearity, kGyroNonlinearity> {
   }
 };
 
-constexpr EffectDescription kGyroRandomWalk = described("gyro_random_walk", "w += integral of white noise",
-                                                        {{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
-                                                         {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
-                                                         {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
-                                                         {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}},
-                                                        TellingManoeuvre::none(), {.place = EffectPlace::lines});
+constexpr EffectDescription kGyroRandomWalk =
+    described("gyro_random_walk", "w += integral of white noise",
+              alike("deg_per_s_per_sqrt_s_ax deg_per_s_per_sqrt_s_az deg_per_s_per_sqrt_s_by "
+                    "deg_per_s_per_sqrt_s_bz",
+                    0.002, 0, 1),
+              TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Each gyro's zero walks at random.
 struct GyroRandomWalk final : EffectOf<GyroRandomWalk, kGyroRandomWalk> {
   void reseed(std::uint64_t seed) override { noise_ = Noise(seed); }
@@ -116,11 +94,7 @@ struct GyroRandomWalk final : EffectOf<GyroRandomWalk, kGyroRandomWalk> {
 };
 
 constexpr EffectDescription kGyroScale =
-    described("gyro_scale", "w += k w",
-              {{"scale_ax", 0.03, -0.9, 1},
-               {"scale_az", 0.03, -0.9, 1},
-               {"scale_by", 0.03, -0.9, 1},
-               {"scale_bz", 0.03, -0.9, 1}},
+    described("gyro_scale", "w += k w", alike("scale_ax scale_az scale_by scale_bz", 0.03, -0.9, 1),
               "turn two full revolutions one way",
               {.confounders = {"fin_gain", "imu_latency", "compass_lag", "gyro_nonlinearity"}});
 /// Each gyro's scale is off.
@@ -132,10 +106,7 @@ struct GyroScale final : EffectOf<GyroScale, kGyroScale> {
 
 constexpr EffectDescription kGyroTemperature =
     described("gyro_temperature", "w += c T, T above 15 C",
-              {{"deg_per_s_per_C_ax", 0.06, -5, 5},
-               {"deg_per_s_per_C_az", 0.06, -5, 5},
-               {"deg_per_s_per_C_by", 0.06, -5, 5},
-               {"deg_per_s_per_C_bz", 0.06, -5, 5}},
+              alike("deg_per_s_per_C_ax deg_per_s_per_C_az deg_per_s_per_C_by deg_per_s_per_C_bz", 0.06, -5, 5),
               "run once from cold and once warmed up", {.confounders = {"gyro_drift"}});
 /// Each gyro's zero moves as the electronics warm up.
 struct GyroTemperature final : EffectOf<GyroTemperature, kGyroTemperature> {

@@ -5,15 +5,24 @@
 
 namespace navcal::sim {
 
-template <class E>
-std::unique_ptr<Effect> new_effect() {
-  return std::make_unique<E>();
+/// Parameters of these names, with blanks between them, that are alike in their numbers.
+constexpr ShortList<EffectParameter, 12> alike(std::string_view names, double typical, double least,
+                                               double greatest) {
+  std::array<EffectParameter, 12> parameters;
+  std::size_t count = 0;
+  for (; !names.empty(); ++count) {
+    const std::string_view name = names.substr(0, names.find(' '));
+    names.remove_prefix(std::min(names.size(), name.size() + 1));
+    parameters.at(count) = {name, typical, least, greatest};
+  }
+  return std::span<const EffectParameter>(parameters).first(count);
 }
 
 /// Entries of the effects that one file of the library defines.
 template <class... E>
 std::span<const EffectEntry> entries_of() {
-  static constexpr std::array kEntries{EffectEntry{E::kName, &new_effect<E>}...};
+  static constexpr std::array kEntries{
+      EffectEntry{E::kName, []() -> std::unique_ptr<Effect> { return std::make_unique<E>(); }}...};
   return kEntries;
 }
 

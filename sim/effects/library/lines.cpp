@@ -26,12 +26,10 @@ class OnEachLine : public EffectOf<Self, kAbout> {
   std::array<Noise, kInstruments> noises_{Noise(1), Noise(2), Noise(3), Noise(4)};
 };
 
-constexpr EffectDescription kArrivalJitter = described("arrival_jitter", "arrival += Exp(mean)",
-                                                       {{"compass_mean_s", 0.005, 0, 1},
-                                                        {"imu_mean_s", 0.005, 0, 1},
-                                                        {"gps_mean_s", 0.005, 0, 1},
-                                                        {"motor_mean_s", 0.005, 0, 1}},
-                                                       TellingManoeuvre::none(), {.place = EffectPlace::lines});
+constexpr EffectDescription kArrivalJitter =
+    described("arrival_jitter", "arrival += Exp(mean)",
+              alike("compass_mean_s imu_mean_s gps_mean_s motor_mean_s", 0.005, 0, 1), TellingManoeuvre::none(),
+              {.place = EffectPlace::lines});
 /// The host takes frames late, by exponential delays.
 struct ArrivalJitter final : OnEachLine<ArrivalJitter, kArrivalJitter> {
   void line(Instrument of, double, Transmission& way) override {
@@ -39,10 +37,9 @@ struct ArrivalJitter final : OnEachLine<ArrivalJitter, kArrivalJitter> {
   }
 };
 
-constexpr EffectDescription kClockError = described(
-    "clock_error", "period *= 1 + e",
-    {{"compass_ppm", 100, -10000, 10000}, {"imu_ppm", 100, -10000, 10000}, {"motor_ppm", 100, -10000, 10000}},
-    TellingManoeuvre::none(), {.place = EffectPlace::lines});
+constexpr EffectDescription kClockError =
+    described("clock_error", "period *= 1 + e", alike("compass_ppm imu_ppm motor_ppm", 100, -10000, 10000),
+              TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// The clocks of compass and cards run slow; the receiver's is that of its satellites.
 struct ClockError final : EffectOf<ClockError, kClockError> {
   void clock(Instrument of, double& slow_ppm) override {
@@ -52,12 +49,10 @@ struct ClockError final : EffectOf<ClockError, kClockError> {
   }
 };
 
-constexpr EffectDescription kDroppedFrames = described("dropped_frames", "lost with probability p",
-                                                       {{"compass_probability", 0.02, 0, 1},
-                                                        {"imu_probability", 0.02, 0, 1},
-                                                        {"gps_probability", 0.02, 0, 1},
-                                                        {"motor_probability", 0.02, 0, 1}},
-                                                       TellingManoeuvre::none(), {.place = EffectPlace::lines});
+constexpr EffectDescription kDroppedFrames =
+    described("dropped_frames", "lost with probability p",
+              alike("compass_probability imu_probability gps_probability motor_probability", 0.02, 0, 1),
+              TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Frames are lost on their way to the host.
 struct DroppedFrames final : OnEachLine<DroppedFrames, kDroppedFrames> {
   void line(Instrument of, double, Transmission& way) override {
@@ -66,20 +61,17 @@ struct DroppedFrames final : OnEachLine<DroppedFrames, kDroppedFrames> {
 };
 
 constexpr EffectDescription kNoiseLevel =
-    described("noise_level", "sigma *= 1 + k",
-              {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
-              TellingManoeuvre::none(), {.place = EffectPlace::lines});
+    described("noise_level", "sigma *= 1 + k", alike("compass imu gps motor", 1, 0, 100), TellingManoeuvre::none(),
+              {.place = EffectPlace::lines});
 /// Every instrument's noise is stronger.
 struct NoiseLevel final : EffectOf<NoiseLevel, kNoiseLevel> {
   void noise(Instrument of, double& factor) override { factor *= 1 + p_[static_cast<std::size_t>(of)]; }
 };
 
-constexpr EffectDescription kRepeatedFrames = described("repeated_frames", "twice with probability p",
-                                                        {{"compass_probability", 0.02, 0, 1},
-                                                         {"imu_probability", 0.02, 0, 1},
-                                                         {"gps_probability", 0.02, 0, 1},
-                                                         {"motor_probability", 0.02, 0, 1}},
-                                                        TellingManoeuvre::none(), {.place = EffectPlace::lines});
+constexpr EffectDescription kRepeatedFrames =
+    described("repeated_frames", "twice with probability p",
+              alike("compass_probability imu_probability gps_probability motor_probability", 0.02, 0, 1),
+              TellingManoeuvre::none(), {.place = EffectPlace::lines});
 /// Frames come twice.
 struct RepeatedFrames final : OnEachLine<RepeatedFrames, kRepeatedFrames> {
   void line(Instrument of, double, Transmission& way) override {

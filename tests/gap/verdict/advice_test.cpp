@@ -6,9 +6,7 @@
 namespace navcal::gap {
 namespace {
 
-sim::EffectDescription told_by(const char* manoeuvre) {
-  return {.name = "", .equation = "", .parameters = {}, .manoeuvre = manoeuvre};
-}
+sim::EffectDescription told_by(const char* manoeuvre) { return sim::described("", "", {}, manoeuvre); }
 
 TEST(TieBreaker, NamesTheManoeuvreOfEachEffectInOrder) {
   EXPECT_EQ(tie_breaker(told_by("climb"), told_by("turn")), "climb; and turn");
