@@ -21,12 +21,6 @@ std::string_view event_name(gap::WatchEvent::Kind kind) {
   return base::enum_name<gap::WatchEvent::Kind::unknown>(kind, {"status", "skipped", "alarm", "cause", "unknown"});
 }
 
-EventJson list_of_where(const gap::WatchReport& report) {
-  EventJson list = EventJson::array();
-  for (const gap::WhereEntry& where : report.where) list.push_back(where_json(where));
-  return list;
-}
-
 EventJson list_of_causes(const gap::WatchReport& report) {
   EventJson list = EventJson::array();
   for (const gap::WatchReport::Cause& cause : report.causes) {
@@ -41,14 +35,11 @@ EventJson list_of_causes(const gap::WatchReport& report) {
 }  // namespace
 
 std::string watch_began_json(const WatchStart& start) {
-  EventJson json{{"event", "began"},
-                 {"vehicle", start.vehicle},
-                 {"source", start.source},
-                 {"window_s", gap::kWindow_s},
-                 {"false_alarms_per_h", start.false_alarms_per_h},
-                 {"threshold_nats", start.threshold_nats},
-                 {"reference", {{"missions", start.reference_missions}, {"windows", start.reference_windows}}},
-                 {"restored_windows", start.restored_windows}};
+  EventJson json{{"event", "began"}, {"vehicle", start.vehicle}, {"source", start.source}};
+  json["window_s"] = gap::kWindow_s;
+  NAVCAL_PUT_MEMBERS(json, start, false_alarms_per_h, threshold_nats);
+  json["reference"] = {{"missions", start.reference_missions}, {"windows", start.reference_windows}};
+  json["restored_windows"] = start.restored_windows;
   if (!start.state_refused.empty()) json["state_refused"] = start.state_refused;
   return json.dump(-1, ' ', false, EventJson::error_handler_t::replace);
 }
@@ -57,14 +48,11 @@ std::string watch_event_json(const gap::WatchEvent& event, const gap::WatchRepor
   EventJson json{{"event", event_name(event.kind)}, {"time", seconds(event.time_ns)}};
   if (event.kind == gap::WatchEvent::Kind::skipped) json["reason"] = event.reason;
   json["verdict"] = gap::name_of(report.verdict);
-  json["windows"] = report.windows;
-  json["skipped"] = report.skipped;
-  json["evidence_nats"] = report.evidence_nats;
-  json["threshold_nats"] = report.threshold_nats;
+  NAVCAL_PUT_MEMBERS(json, report, windows, skipped, evidence_nats, threshold_nats);
   if (report.alarm_ns) {
     json["alarm"] = seconds(*report.alarm_ns);
     json["effects"] = list_of_causes(report);
-    json["where"] = list_of_where(report);
+    json["where"] = report.where;
     json["unexplained"] = nullptr;
     if (!report.unexplained.empty()) json["unexplained"] = report.unexplained;
   }

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <nlohmann/json.hpp>
-
 #include "report/identify_report.h"
+#include "report/json_members.h"
+
+namespace navcal::identify {
+
+NAVCAL_JSON_MEMBERS(BeforeAfter, before, after)
+NAVCAL_JSON_MEMBERS(ManoeuvreAdvice, manoeuvre, seconds, gain_nats, parameter, std_before, std_after)
+NAVCAL_JSON_MEMBERS(ChannelFit, readings, noise_scale, correlation)
+NAVCAL_JSON_MEMBERS(NuisanceFit, recording, name, unit, value, std)
+NAVCAL_JSON_MEMBERS(DisturbanceFit, coloured, white, unit, share)
+NAVCAL_JSON_MEMBERS(PredictionFit, quantity, unit, after_s, starts, before, after, linear)
+
+}  // namespace navcal::identify
 
 namespace navcal::report {
-namespace {
-
-using IdentifyJson = nlohmann::ordered_json;
-
-IdentifyJson before_after_json(const identify::BeforeAfter& rms) {
-  return {{"before", rms.before}, {"after", rms.after}};
-}
-
-}  // namespace
 
 std::string identify_json(const identify::Identification& found) {
+  using IdentifyJson = nlohmann::ordered_json;
   IdentifyJson parameters = IdentifyJson::object(), directions = IdentifyJson::array(),
-               manoeuvres = IdentifyJson::array(), channels = IdentifyJson::object(),
-               nuisances = IdentifyJson::array(), disturbances = IdentifyJson::object(),
-               predictions = IdentifyJson::array();
+               channels = IdentifyJson::object(), disturbances = IdentifyJson::object();
   for (const auto& one : found.parameters) {
     parameters[one.parameter.name] = {{"value", one.value},
                                       {"std", one.std},
@@ -28,58 +28,15 @@ std::string identify_json(const identify::Identification& found) {
                                       {"identified", one.is_identified}};
   }
   for (const auto& direction : found.directions) directions.push_back(direction.words);
-  for (const auto& advice : found.manoeuvres) {
-    manoeuvres.push_back({{"manoeuvre", advice.manoeuvre},
-                          {"seconds", advice.seconds},
-                          {"gain_nats", advice.gain_nats},
-                          {"parameter", advice.parameter},
-                          {"std_before", advice.std_before},
-                          {"std_after", advice.std_after}});
-  }
-  for (const auto& fit : found.channels) {
-    const auto& of = identify::describe(fit.channel);
-    channels[std::string(of.name)] = {
-        {"readings", fit.readings}, {"noise_scale", fit.noise_scale}, {"correlation", fit.correlation}};
-  }
-  for (const auto& nuisance : found.nuisances) {
-    nuisances.push_back({{"recording", nuisance.recording},
-                         {"name", nuisance.name},
-                         {"unit", nuisance.unit},
-                         {"value", nuisance.value},
-                         {"std", nuisance.std}});
-  }
-  for (const auto& of : found.disturbances) {
-    disturbances[std::string(of.axis)] = {{"coloured", of.coloured},
-                                          {"white", of.white},
-                                          {"unit", of.unit},
-                                          {"share", of.share ? IdentifyJson(*of.share) : IdentifyJson()}};
-  }
-  for (const auto& one : found.predictions) {
-    predictions.push_back({{"quantity", one.quantity},
-                           {"unit", one.unit},
-                           {"after_s", one.after_s},
-                           {"starts", one.starts},
-                           {"before", one.before},
-                           {"after", one.after},
-                           {"linear", one.linear ? IdentifyJson(*one.linear) : IdentifyJson()}});
-  }
-  const IdentifyJson json{{"parameters", parameters},
-                          {"directions", directions},
-                          {"held_out", found.held_out ? before_after_json(*found.held_out) : IdentifyJson()},
-                          {"fitted", before_after_json(found.fitted)},
-                          {"predictions", predictions},
-                          {"manoeuvres", manoeuvres},
-                          {"channels", channels},
-                          {"nuisances", nuisances},
-                          {"disturbances", disturbances},
-                          {"disturbance_tau_s", found.disturbance_tau_s},
-                          {"left_out", found.left_out},
-                          {"interval_s", found.interval_s},
-                          {"model_error", found.model_error},
-                          {"seconds", found.seconds},
-                          {"iterations", found.iterations},
-                          {"converged", found.converged},
-                          {"warnings", found.warnings}};
+  for (const auto& fit : found.channels) channels[std::string(identify::describe(fit.channel).name)] = fit;
+  for (const auto& of : found.disturbances) disturbances[std::string(of.axis)] = of;
+  IdentifyJson json{{"parameters", std::move(parameters)}, {"directions", std::move(directions)}};
+  NAVCAL_PUT_MEMBERS(json, found, held_out, fitted, predictions, manoeuvres);
+  json["channels"] = std::move(channels);
+  json["nuisances"] = found.nuisances;
+  json["disturbances"] = std::move(disturbances);
+  NAVCAL_PUT_MEMBERS(json, found, disturbance_tau_s, left_out, interval_s, model_error, seconds, iterations,
+                     converged, warnings);
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

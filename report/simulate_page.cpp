@@ -232,25 +232,21 @@ void append_effects(HtmlPage& page, const sim::EffectSet& effects) {
   page.section("Effects");
   if (effects.size() == 0 && effects.layout_members().empty()) return page.paragraph("None: the nominal model.");
   std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    const auto& about = effects[i].description();
-    std::string name(about.name), equation(about.equation), when = effect_interval_text(effects.interval(i));
-    const auto values = effects[i].parameters();
+  const auto add = [&](std::string name, const auto& about, const auto& values, const sim::Interval& interval) {
+    std::string equation(about.equation), when = effect_interval_text(interval);
     for (std::size_t k = 0; k < values.size(); ++k) {
       rows.push_back(
           {name, std::string(about.parameters[k].name), fmt::format("{:.4g}", values[k]), equation, when});
       for (auto* once : {&name, &equation, &when}) once->clear();
     }
+  };
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const auto& about = effects[i].description();
+    add(std::string(about.name), about, effects[i].parameters(), effects.interval(i));
   }
-  for (const sim::EffectSet::LayoutMember& member : effects.layout_members()) {
-    const sim::LayoutEffectDescription& about = *member.effect.about;
-    std::string name = std::string(about.name) + (member.effect.of.empty() ? "" : " of " + member.effect.of);
-    std::string equation(about.equation), when = effect_interval_text(member.when);
-    for (std::size_t k = 0; k < member.effect.values.size(); ++k) {
-      rows.push_back({name, std::string(about.parameters[k].name), fmt::format("{:.4g}", member.effect.values[k]),
-                      equation, when});
-      for (auto* once : {&name, &equation, &when}) once->clear();
-    }
+  for (const auto& [effect, when] : effects.layout_members()) {
+    const std::string of = effect.of.empty() ? "" : " of " + effect.of;
+    add(std::string(effect.about->name) + of, *effect.about, effect.values, when);
   }
   page.table({"Effect", "Parameter", "Value", "Equation", "When"}, rows);
 }

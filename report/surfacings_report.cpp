@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "base/utc_text.h"
 #include "devices/instrument_model.h"
 #include "report/html_page.h"
+#include "report/json_members.h"
 #include "report/svg_plot.h"
 #include "report/wrapped_text.h"
 #include "validation/score.h"
@@ -30,26 +30,21 @@ std::string first_fix_text(std::int64_t utc_ns) {
   return text;
 }
 
-template <class Number>
-nlohmann::json json_of(const std::optional<Number>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json();
-}
-
 nlohmann::json json_of(const analysis::RecordedSurfacing& found) {
   const auto& surfacing = found.surfacing;
   return {{"file", found.file},
           {"time", static_cast<double>(found.first_fix_utc_ns) * 1e-9},
-          {"without_fix_s", json_of(surfacing.without_fix_s())},
-          {"submerged_s", json_of(surfacing.submerged_s())},
-          {"deepest_m", json_of(surfacing.deepest_m)},
-          {"ttff_s", json_of(surfacing.time_to_first_fix_s())},
-          {"visible", json_of(surfacing.visible)},
-          {"tracked", json_of(surfacing.tracked)},
-          {"dop", json_of(surfacing.dop)},
-          {"distance_m", json_of(found.distance_m)},
-          {"error_m", json_of(found.error_m)},
-          {"std_m", json_of(found.std_m)},
-          {"error_uncalibrated_m", json_of(found.error_uncalibrated_m)}};
+          {"without_fix_s", surfacing.without_fix_s()},
+          {"submerged_s", surfacing.submerged_s()},
+          {"deepest_m", surfacing.deepest_m},
+          {"ttff_s", surfacing.time_to_first_fix_s()},
+          {"visible", surfacing.visible},
+          {"tracked", surfacing.tracked},
+          {"dop", surfacing.dop},
+          {"distance_m", found.distance_m},
+          {"error_m", found.error_m},
+          {"std_m", found.std_m},
+          {"error_uncalibrated_m", found.error_uncalibrated_m}};
 }
 
 using SurfacingInk = SvgPlot::Ink;
@@ -205,13 +200,13 @@ std::string surfacings_json(const std::vector<analysis::RecordedSurfacing>& surf
                             {"statistics",
                              {{"count", statistics.count},
                               {"with_ttff", statistics.with_ttff},
-                              {"ttff_least_s", json_of(statistics.least_s)},
-                              {"ttff_median_s", json_of(statistics.median_s)},
-                              {"ttff_mean_s", json_of(statistics.mean_s)},
-                              {"ttff_p90_s", json_of(statistics.p90_s)},
-                              {"ttff_longest_s", json_of(statistics.longest_s)},
+                              {"ttff_least_s", statistics.least_s},
+                              {"ttff_median_s", statistics.median_s},
+                              {"ttff_mean_s", statistics.mean_s},
+                              {"ttff_p90_s", statistics.p90_s},
+                              {"ttff_longest_s", statistics.longest_s},
                               {"with_error", statistics.with_error},
-                              {"error_over_std", json_of(statistics.error_over_std)}}}};
+                              {"error_over_std", statistics.error_over_std}}}};
   return json.dump() + '\n';
 }
 

@@ -38,40 +38,31 @@ ThesisTablePart heading_error_part(const analysis::ThesisResults& results) {
   return thesis_part(
       "heading_error", "Error of heading over the whole circle, degrees", ours.size(),
       {kThesisPathColumn,
-       {{"thesis_mean_deg", "thesis: mean", 4}, [&](Row i) { return printed.at(i).mean_deg; }},
-       {{"thesis_largest_deg", "max", 4}, [&](Row i) { return printed.at(i).largest_deg; }},
-       {{"thesis_std_deg", "std", 4}, [&](Row i) { return printed.at(i).std_deg; }},
-       {{"checked_mean_deg", "from its B..E: mean", 4}, [&](Row i) { return ours.at(i).printed_error.mean_deg; }},
-       {{"checked_largest_deg", "max", 4}, [&](Row i) { return ours.at(i).printed_error.largest_deg; }},
-       {{"checked_std_deg", "std", 4}, [&](Row i) { return ours.at(i).printed_error.std_deg; }},
-       {{"recomputed_mean_deg", "recomputed: mean", 4},
-        [&](Row i) { return ours.at(i).least_squares_error.mean_deg; }},
-       {{"recomputed_largest_deg", "max", 4}, [&](Row i) { return ours.at(i).least_squares_error.largest_deg; }},
-       {{"recomputed_std_deg", "std", 4}, [&](Row i) { return ours.at(i).least_squares_error.std_deg; }},
-       {{"navcal_largest_deg", "navcal: max", 4}, [&](Row i) { return ours.at(i).navcal_error.largest_deg; }},
-       {{"noise_method_largest_deg", "noise: method of the thesis, max", 2},
-        [&](Row i) { return ours.at(i).least_squares_noisy.largest_deg; }},
-       {{"noise_navcal_largest_deg", "noise: navcal, max", 3},
-        [&](Row i) { return ours.at(i).navcal_noisy.largest_deg; }}});
+       {"thesis_mean_deg", [&](Row i) { return printed.at(i).mean_deg; }},
+       {"thesis_largest_deg", [&](Row i) { return printed.at(i).largest_deg; }},
+       {"thesis_std_deg", [&](Row i) { return printed.at(i).std_deg; }},
+       {"checked_mean_deg", [&](Row i) { return ours.at(i).printed_error.mean_deg; }},
+       {"checked_largest_deg", [&](Row i) { return ours.at(i).printed_error.largest_deg; }},
+       {"checked_std_deg", [&](Row i) { return ours.at(i).printed_error.std_deg; }},
+       {"recomputed_mean_deg", [&](Row i) { return ours.at(i).least_squares_error.mean_deg; }},
+       {"recomputed_largest_deg", [&](Row i) { return ours.at(i).least_squares_error.largest_deg; }},
+       {"recomputed_std_deg", [&](Row i) { return ours.at(i).least_squares_error.std_deg; }},
+       {"navcal_largest_deg", [&](Row i) { return ours.at(i).navcal_error.largest_deg; }},
+       {"noise_method_largest_deg", [&](Row i) { return ours.at(i).least_squares_noisy.largest_deg; }},
+       {"noise_navcal_largest_deg", [&](Row i) { return ours.at(i).navcal_noisy.largest_deg; }}});
 }
 
 }  // namespace
 
 ThesisTable thesis_compass_table(const analysis::ThesisResults& results) {
-  ThesisTable table{"4.1",
-                    "Compass by least squares, with a calibrated gyro",
-                    "B to E in degrees. Percentages are 100 (estimate - true) / true with the sign of the true "
-                    "value, as in this table of the thesis, but not in its tables 3.1 and 3.2. Columns thesis and "
-                    "recomputed: deviation injected at the true heading, as the thesis did. All other columns: "
-                    "psi = psi_m - E(psi_m), as its equation (2.8) says.",
-                    {}};
+  ThesisTable table{"4.1", "Compass by least squares, with a calibrated gyro", {}};
   for (std::size_t c = 0; c < kDeviationNames.size(); ++c) {
     const double truth_deg =
         calib::thesis::thesis_deviation()[static_cast<Eigen::Index>(c) + 1] * base::kDegreesPerRadian;
     const std::string name = kDeviationNames.at(c);
     table.parts.push_back(thesis_estimates(
         name, name + ", true value " + std::to_string(static_cast<int>(std::lround(truth_deg))) + " degrees",
-        deviation_rows(results, c), 4));
+        deviation_rows(results, c)));
   }
   table.parts.push_back(heading_error_part(results));
   return table;

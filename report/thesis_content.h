@@ -40,8 +40,8 @@ struct ThesisTablePart {
 struct ThesisTable {
   std::string id;  ///< "3.1"; other names for tables that the thesis does not have
   std::string title;
-  std::string words;  ///< how to read it
   std::vector<ThesisTablePart> parts;
+  std::string words = {};  ///< how to read it: thesis_tables() takes it from thesis_captions.txt
 };
 
 /// A figure of the thesis that shows a path.
@@ -72,6 +72,9 @@ struct ThesisFigure {
   std::vector<ThesisPanel> panels;
   std::string caption = {};  ///< empty: that of thesis_captions.txt
 };
+
+/// The caption of a figure or a table in thesis_captions.txt; empty where there is none.
+[[nodiscard]] std::string thesis_caption(const std::string& id);
 
 /// Cell as on the page.
 [[nodiscard]] std::string shown_cell(const ThesisCell& cell, const ThesisColumn& column);
@@ -115,11 +118,11 @@ ThesisPanel thesis_track_panel(const Trace& trace) {
 
 /// A column with the way to its cell in a row.
 struct ThesisColumnOf {
-  ThesisColumn column;
+  std::string key;  ///< in thesis_columns.txt
   std::function<ThesisCell(std::size_t row)> get;
 };
 /// Numbers of the paths.
-inline const ThesisColumnOf kThesisPathColumn{{"path", "path", 0},
+inline const ThesisColumnOf kThesisPathColumn{"path",
                                               [](std::size_t row) { return static_cast<double>(row) + 1; }};
 
 [[nodiscard]] ThesisTablePart thesis_part(std::string key, std::string title, std::size_t rows,
@@ -137,7 +140,7 @@ struct ThesisEstimate {
 };
 /// The columns that tables 3.1, 3.2 and 4.1 have in common.
 [[nodiscard]] ThesisTablePart thesis_estimates(std::string key, std::string title,
-                                               const std::vector<ThesisEstimate>& rows, int decimals);
+                                               const std::vector<ThesisEstimate>& rows);
 
 /// A sentence on each table.
 struct ThesisFinding {

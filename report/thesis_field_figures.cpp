@@ -3,14 +3,10 @@
 
 #include <array>
 
-#include "base/text_rows.h"
 #include "calib/thesis/printed_tables.h"
 #include "report/thesis_content.h"
 
 namespace navcal::report {
-
-const char* caption_rows();  // thesis_captions.txt
-
 namespace {
 
 using Ink = SvgPlot::Ink;
@@ -54,10 +50,8 @@ std::vector<ThesisFigure> thesis_figures(const analysis::ThesisResults& results)
   for (const auto& part : {thesis_model_figures(results), thesis_turn_figures(results),
                            thesis_compass_figures(results), thesis_field_figures(results)})
     figures.insert(figures.end(), part.begin(), part.end());
-  const auto captions = base::text_rows(caption_rows(), " ");
   for (ThesisFigure& figure : figures) {
-    for (const auto& [id, caption] : captions)
-      if (id == figure.id) figure.caption = caption;
+    if (figure.caption.empty()) figure.caption = thesis_caption(figure.id);
   }
   return figures;
 }

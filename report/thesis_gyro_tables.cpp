@@ -34,9 +34,8 @@ std::vector<ThesisEstimate> gyro_rows(const analysis::ThesisResults& results, bo
 }
 
 std::vector<ThesisTablePart> gyro_parts(const analysis::ThesisResults& results, bool adaptive) {
-  return {
-      thesis_estimates("scale", "Scale abar, true value 1.1111", gyro_rows(results, adaptive, 0), 4),
-      thesis_estimates("bias_rad_s", "Bias bbar, true value -0.1111 rad/s", gyro_rows(results, adaptive, 1), 4)};
+  return {thesis_estimates("scale", "Scale abar, true value 1.1111", gyro_rows(results, adaptive, 0)),
+          thesis_estimates("bias_rad_s", "Bias bbar, true value -0.1111 rad/s", gyro_rows(results, adaptive, 1))};
 }
 
 ThesisCell time_cell(const std::optional<double>& time_s) {
@@ -51,40 +50,23 @@ ThesisTable convergence_table(const analysis::ThesisResults& results) {
   };
   const std::vector<ThesisColumnOf> columns{
       kThesisPathColumn,
-      {{"identifier_settled_s", "identifier within 5 %, s", 1},
-       [&](Row i) { return time_cell(gyro.at(i).adaptive_settled_s); }},
-      {{"noise_identifier_settled_s", "with noise, s", 1},
-       [&](Row i) { return time_cell(gyro.at(i).adaptive_noisy_settled_s); }},
-      {{"identifier_scale_percent", "identifier at the end: abar, %", 2},
-       [&](Row i) { return error(gyro.at(i).adaptive, 0); }},
-      {{"identifier_bias_percent", "bbar, %", 2}, [&](Row i) { return error(gyro.at(i).adaptive, 1); }},
-      {{"navcal_settled_s", "navcal within 5 %, s", 1},
-       [&](Row i) { return time_cell(gyro.at(i).navcal_settled_s); }},
-      {{"noise_navcal_settled_s", "with noise, s", 1},
-       [&](Row i) { return time_cell(gyro.at(i).navcal_noisy_settled_s); }},
-      {{"navcal_scale_percent", "navcal at the end: abar, %", 4},
-       [&](Row i) { return error(gyro.at(i).navcal, 0); }},
-      {{"navcal_bias_percent", "bbar, %", 4}, [&](Row i) { return error(gyro.at(i).navcal, 1); }}};
+      {"identifier_settled_s", [&](Row i) { return time_cell(gyro.at(i).adaptive_settled_s); }},
+      {"noise_identifier_settled_s", [&](Row i) { return time_cell(gyro.at(i).adaptive_noisy_settled_s); }},
+      {"identifier_scale_percent", [&](Row i) { return error(gyro.at(i).adaptive, 0); }},
+      {"identifier_bias_percent", [&](Row i) { return error(gyro.at(i).adaptive, 1); }},
+      {"navcal_settled_s", [&](Row i) { return time_cell(gyro.at(i).navcal_settled_s); }},
+      {"noise_navcal_settled_s", [&](Row i) { return time_cell(gyro.at(i).navcal_noisy_settled_s); }},
+      {"navcal_scale_percent", [&](Row i) { return error(gyro.at(i).navcal, 0); }},
+      {"navcal_bias_percent", [&](Row i) { return error(gyro.at(i).navcal, 1); }}};
   return {
-      "convergence",
-      "Convergence of the adaptive identifier",
-      "Seconds after which both estimates stay within 5 % of the true values, without noise and in one run with "
-      "noise, and the errors at the end of the path without noise. The identifier has the constants K = -0.75 and "
-      "Lambda = diag(2, 0.2). navcal's filter is recursive, too: it updates its estimate with every reading.",
-      {thesis_part("paths", "", gyro.size(), columns)}};
+      "convergence", "Convergence of the adaptive identifier", {thesis_part("paths", "", gyro.size(), columns)}};
 }
 
 }  // namespace
 
 std::vector<ThesisTable> thesis_gyro_tables(const analysis::ThesisResults& results) {
-  return {{"3.1", "Gyro by least squares",
-           "Percentages are 100 (estimate - true) / |true|, as in the thesis: a positive one of the bias means "
-           "less negative. The compass has no error but noise.",
-           gyro_parts(results, false)},
-          {"3.2", "Gyro by the adaptive identifier",
-           "Percentages as in table 3.1. The columns of navcal repeat those of table 3.1, because one recursive "
-           "filter takes the place of both methods.",
-           gyro_parts(results, true)},
+  return {{"3.1", "Gyro by least squares", gyro_parts(results, false)},
+          {"3.2", "Gyro by the adaptive identifier", gyro_parts(results, true)},
           convergence_table(results)};
 }
 

@@ -7,10 +7,14 @@
 #include <cmath>
 #include <vector>
 
+#include "base/text_rows.h"
 #include "report/html_page.h"
 #include "report/thesis_content.h"
 
 namespace navcal::report {
+
+const char* reading_rows();  // thesis_reading.txt
+
 namespace {
 
 /// Three pictures side by side, or one or two.
@@ -112,22 +116,10 @@ void add_figures(HtmlPage& page, const std::vector<ThesisFigure>& figures, char 
 
 void add_reading_help(HtmlPage& page, const analysis::ThesisResults& results) {
   page.section("How to read the tables");
-  page.table(
-      {"column", "meaning"},
-      {{"thesis", "the number as printed in 2003"},
-       {"recomputed",
-        "the algorithm of the thesis on our eight paths, without noise. The paths are new: only extent, rates and "
-        "headings of the original ones are on record"},
-       {"navcal", "navcal's own calibrator on the same readings"},
-       {"noise",
-        fmt::format("root mean square of the error over {} runs with the noise of the thesis: 0.001 rad in roll "
-                    "and pitch, 0.004 rad in the compass, 0.005 rad/s in the gyro, 0.1 uT in the magnetometer",
-                    results.runs)},
-       {"bound",
-        "the Cramer-Rao bound for this noise on this path, one standard deviation: no unbiased method can be "
-        "better"},
-       {"... / bound",
-        "error in units of the bound. Column thesis / bound: the printed error, which had no noise"}});
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [column, meaning] : base::text_rows(reading_rows(), ": "))
+    rows.push_back({std::string(column), fmt::format(fmt::runtime(meaning), results.runs)});
+  page.table({"column", "meaning"}, rows);
 }
 
 }  // namespace

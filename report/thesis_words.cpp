@@ -10,7 +10,8 @@
 
 namespace navcal::report {
 
-const char* errata_rows();  // thesis_errata.txt
+const char* caption_rows();  // thesis_captions.txt
+const char* errata_rows();   // thesis_errata.txt
 
 namespace {
 
@@ -92,6 +93,12 @@ ThesisFinding field_finding(const analysis::ThesisResults& results) {
 std::vector<ThesisFinding> thesis_findings(const analysis::ThesisResults& results) {
   return {gyro_finding(results), identifier_finding(results), compass_finding(results), metric_finding(results),
           field_finding(results)};
+}
+
+std::string thesis_caption(const std::string& id) {
+  for (const auto& [of, caption] : base::text_rows(caption_rows(), " "))
+    if (of == id) return std::string(caption);
+  return {};
 }
 
 std::vector<std::vector<std::string>> thesis_errata() {

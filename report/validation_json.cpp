@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <nlohmann/json.hpp>
-
+#include "report/json_members.h"
 #include "report/validation_report.h"
 
 namespace navcal::report {
@@ -8,22 +7,17 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-template <class Value>
-OrderedJson or_null(const std::optional<Value>& value) {
-  return value ? OrderedJson(*value) : OrderedJson();
-}
-
 OrderedJson json_of(const validation::TrialScore& score) {
-  OrderedJson json{{"name", score.name}, {"value", or_null(score.value)}, {"cases", score.cases}};
+  OrderedJson json{{"name", score.name}, {"value", score.value}, {"cases", score.cases}};
   // Shares are numbers from 0 to 1.
   if (score.unit == "s") json["unit"] = score.unit;
   if (score.interval) {
     json["hits"] = score.hits;
     json["interval"] = *score.interval;
   }
-  json["at_least"] = or_null(score.least);
-  json["at_most"] = or_null(score.most);
-  json["met"] = or_null(score.met());
+  json["at_least"] = score.least;
+  json["at_most"] = score.most;
+  json["met"] = score.met();
   return json;
 }
 
@@ -48,10 +42,7 @@ std::string trial_json(const TrialReport& report) {
     json["places"] = report.places;
   } else {
     for (const validation::NamedLayout& layout : on.layouts) json["layouts"].push_back(layout.name);
-    json.update({{"vehicles", on.vehicles},
-                 {"nominal", on.nominal},
-                 {"layout_error", on.layout_error},
-                 {"unmodelled", on.unmodelled}});
+    NAVCAL_PUT_MEMBERS(json, on, vehicles, nominal, layout_error, unmodelled);
   }
   json.update(
       {{"asked_for", report.asked_for}, {"answered", report.results.size()}, {"ended_early", report.ended_early}});

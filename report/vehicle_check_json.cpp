@@ -1,49 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <nlohmann/json.hpp>
-
 #include "base/angles.h"
+#include "report/json_members.h"
 #include "report/vehicle_report.h"
 
-namespace navcal::report {
-namespace {
+namespace navcal::identify {
 
-using VehicleJson = nlohmann::ordered_json;
+NAVCAL_JSON_MEMBERS(Convention, name, what, probability, sentence)
 
-VehicleJson or_null(const std::optional<double>& value) { return value ? VehicleJson(*value) : VehicleJson(); }
+}  // namespace navcal::identify
 
-VehicleJson statics_json(const sim::Statics& statics) {
-  return {{"mass_kg", statics.mass_kg},
-          {"displaced_kg", statics.displaced_kg},
-          {"net_buoyancy_N", statics.net_buoyancy_N},
-          {"trim_roll_deg", statics.roll_rad * base::kDegreesPerRadian},
-          {"trim_pitch_deg", statics.pitch_rad * base::kDegreesPerRadian},
-          {"metacentric_height_m", statics.metacentric_height_m},
-          {"roll_period_s", or_null(statics.roll_period_s)},
-          {"pitch_period_s", or_null(statics.pitch_period_s)},
-          {"roll_damping_ratio", statics.roll_damping_ratio},
-          {"pitch_damping_ratio", statics.pitch_damping_ratio}};
+namespace navcal::sim {
+
+NAVCAL_JSON_MEMBERS(SteadySpeed, what, force_N, speed_m_s)
+NAVCAL_JSON_MEMBERS(Oddity, key, message)
+
+static void to_json(nlohmann::ordered_json& json, const Statics& statics) {
+  NAVCAL_PUT_MEMBERS(json, statics, mass_kg, displaced_kg, net_buoyancy_N);
+  json["trim_roll_deg"] = statics.roll_rad * base::kDegreesPerRadian;
+  json["trim_pitch_deg"] = statics.pitch_rad * base::kDegreesPerRadian;
+  NAVCAL_PUT_MEMBERS(json, statics, metacentric_height_m, roll_period_s, pitch_period_s, roll_damping_ratio,
+                     pitch_damping_ratio);
 }
 
-VehicleJson speeds_json(const std::vector<sim::SteadySpeed>& speeds) {
-  VehicleJson out = VehicleJson::array();
-  for (const sim::SteadySpeed& steady : speeds)
-    out.push_back({{"what", steady.what}, {"force_N", steady.force_N}, {"speed_m_s", or_null(steady.speed_m_s)}});
-  return out;
-}
-
-VehicleJson motion_json(const sim::SteadyMotion& motion) {
-  if (!motion.failure.empty()) return {{"what", motion.what}, {"failure", motion.failure}};
-  return {{"what", motion.what},
+static void to_json(nlohmann::ordered_json& json, const SteadyMotion& motion) {
+  if (!motion.failure.empty()) return NAVCAL_PUT_MEMBERS(json, motion, what, failure);
+  json = {{"what", motion.what},
           {"steady", motion.is_steady},
           {"speed_m_s", motion.speed_m_s},
           {"surge_m_s", motion.surge_m_s},
           {"roll_deg", motion.roll_rad * base::kDegreesPerRadian},
           {"pitch_deg", motion.pitch_rad * base::kDegreesPerRadian},
           {"turn_deg_s", motion.turn_rad_s * base::kDegreesPerRadian},
-          {"radius_m", or_null(motion.radius_m)},
+          {"radius_m", motion.radius_m},
           {"path_deg", motion.path_rad * base::kDegreesPerRadian},
           {"angle_of_attack_deg", motion.attack_rad * base::kDegreesPerRadian}};
 }
+
+}  // namespace navcal::sim
+
+namespace navcal::report {
+namespace {
+
+using VehicleJson = nlohmann::ordered_json;
 
 template <class Found>
 VehicleJson allocation_json(const Found& found, double speed_m_s) {
@@ -62,27 +60,16 @@ std::string vehicle_check_json(const config::Layout& layout, const sim::Assessme
   VehicleJson out{
       {"name", layout.name}, {"simulable", found.cannot_simulate.empty()}, {"reason", found.cannot_simulate}};
   if (found.cannot_simulate.empty()) {
-    out["statics"] = statics_json(found.statics);
-    out["ahead"] = speeds_json(found.ahead);
-    out["downwards"] = speeds_json(found.downwards);
-    out["motions"] = VehicleJson::array();
-    for (const sim::SteadyMotion& motion : found.motions) out["motions"].push_back(motion_json(motion));
+    NAVCAL_PUT_MEMBERS(out, found, statics, ahead, downwards, motions);
     out["allocation"] = {allocation_json(found.at_rest, 0), allocation_json(found.under_way, found.under_way_m_s)};
   }
-  out["odd"] = VehicleJson::array();
-  for (const sim::Oddity& oddity : found.odd)
-    out["odd"].push_back({{"key", oddity.key}, {"message", oddity.message}});
+  out["odd"] = found.odd;
   return out.dump() + "\n";
 }
 
 std::string conventions_json(const identify::ConventionCheck& found) {
-  VehicleJson out{
-      {"conventions", VehicleJson::array()}, {"not_checked", found.not_checked}, {"untold", found.untold}};
-  for (const identify::Convention& convention : found.found)
-    out["conventions"].push_back({{"name", convention.name},
-                                  {"what", convention.what},
-                                  {"probability", convention.probability},
-                                  {"sentence", convention.sentence}});
+  VehicleJson out{{"conventions", found.found}};
+  NAVCAL_PUT_MEMBERS(out, found, not_checked, untold);
   return out.dump() + "\n";
 }
 

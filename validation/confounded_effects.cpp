@@ -3,116 +3,68 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
+#include "base/enum_name.h"
+#include "base/text_rows.h"
 #include "sim/effects/effect_table.h"
 #include "validation/reference/effects.h"
 
 namespace navcal::validation {
+
+/// Channels and sources of each reference::Trace, by the equations: a lag of the field or a turned magnetometer is
+/// an error of both field and heading, and what acts on the whole inertial card is one of each of its instruments.
+/// Families of the quantities in each foreign effect's equation (docs/trial.md). Pairs of effects of a vehicle
+/// with thrusters that leave nearly the same traces.
+const char* signature_rows();  // signatures.txt
+
 namespace {
 
-using reference::Trace;
+using Words = std::vector<std::string_view>;
 
-/// Names of the channels that an enumerator of reference::Trace stands for, and the sources of which it is an
-/// error, by the equations. A lag of the field or a turned magnetometer is an error of both field and heading.
-/// What acts on the whole inertial card is one of each of its instruments.
-struct Traced {
-  std::vector<std::string_view> channels, sources;
-};
-
-const Traced& traced(Trace trace) {
-  static const std::map<Trace, Traced> kAll{
-      {Trace::field, {{"compass.field", "compass.heading"}, {"compass.field"}}},
-      {Trace::heading,
-       {{"compass.heading", "compass.field", "gps.velocity", "gps.position"},
-        {"compass.heading", "compass.field"}}},
-      {Trace::tilt,
-       {{"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}, {"compass.tilt"}}},
-      {Trace::roll,
-       {{"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}, {"vehicle.moments"}}},
-      {Trace::rates,
-       {{"imu.gyro", "compass.heading", "compass.tilt", "compass.field", "vehicle.yaw_rate", "vehicle.pitch_rate"},
-        {"imu.gyro"}}},
-      {Trace::force,
-       {{"imu.accel", "compass.tilt", "vehicle.speed", "gps.velocity", "gps.position"}, {"imu.accel"}}},
-      {Trace::card,
-       {{"imu.gyro", "imu.accel", "imu.depth", "compass.heading", "compass.tilt", "compass.field",
-         "vehicle.yaw_rate", "vehicle.pitch_rate", "vehicle.depth_rate"},
-        {"imu.gyro", "imu.accel", "imu.depth"}}},
-      {Trace::depth, {{"imu.depth", "vehicle.depth_rate"}, {"imu.depth"}}},
-      {Trace::fixes, {{"gps.position", "gps.velocity"}, {"gps"}}},
-      {Trace::drift, {{"gps.position", "gps.velocity", "vehicle.speed"}, {"water.current"}}},
-      {Trace::thrust,
-       {{"vehicle.speed", "gps.velocity", "gps.position", "imu.accel", "imu.gyro", "vehicle.pitch_rate",
-         "vehicle.depth_rate", "vehicle.yaw_rate"},
-        {"vehicle.thrust"}}},
-      {Trace::fins,
-       {{"vehicle.yaw_rate", "vehicle.pitch_rate", "imu.gyro", "compass.heading", "vehicle.depth_rate",
-         "imu.accel", "compass.tilt"},
-        {"vehicle.moments"}}},
-      {Trace::rise, {{"vehicle.depth_rate", "imu.depth", "vehicle.pitch_rate"}, {"vehicle.heave"}}},
-      {Trace::supply,
-       {{"vehicle.speed", "imu.accel", "imu.gyro", "imu.depth", "gps.velocity", "gps.position"},
-        {"vehicle.thrust", "imu.gyro", "imu.accel", "imu.depth"}}},
-      {Trace::waves,
-       {{"vehicle.yaw_rate", "imu.accel", "imu.gyro", "compass.tilt", "gps.velocity"},
-        {"vehicle.moments", "vehicle.heave"}}},
-  };
-  return kAll.at(trace);
+/// The words of each row that begins with `key`.
+std::vector<Words> rows_of(std::string_view key) {
+  std::vector<Words> found;
+  for (auto [first, words] : base::text_rows(signature_rows(), ": ")) {
+    if (first != key) continue;
+    found.emplace_back();
+    for (; !words.empty(); words.remove_prefix(std::min(words.size(), found.back().back().size() + 1)))
+      found.back().push_back(words.substr(0, words.find(' ')));
+  }
+  return found;
 }
 
-/// Families of the quantities in a foreign effect's equation (docs/trial.md).
-std::span<const std::string_view> families_of(std::string_view foreign) {
-  using Families = std::vector<std::string_view>;
-  static const std::map<std::string_view, Families> kAll{
-      {"crossflow_depth", {"depth"}},
-      {"torque_leak", {"command", "speed", "current"}},
-      {"tidal_current", {"time"}},
-      {"battery_sag", {"time", "current"}},
-      {"fin_stall", {"command", "rate"}},
-      {"fouling", {"time"}},
-      {"surface_waves", {"depth", "time"}},
-      {"heading_lag", {"rate"}},
-      {"magnetometer_saturation", {"heading"}},
-      {"gyro_thermal_twist", {"temperature", "rate"}},
-      {"gyro_popcorn", {"time"}},
-      {"depth_hysteresis", {"depth", "lag"}},
-      {"gps_multipath", {"heading"}},
-  };
-  return kAll.at(foreign);
+Words row_of(std::string_view kind, std::string_view name) {
+  return rows_of(std::string(kind).append(" of ").append(name)).at(0);
+}
+
+TrialSignature signature(const reference::EffectKind& kind) {
+  const std::string_view trace = base::enum_name<reference::Trace::waves>(
+      kind.trace, {"field", "heading", "tilt", "roll", "rates", "force", "card", "depth", "fixes", "drift",
+                   "thrust", "fins", "rise", "supply", "waves"});
+  return {kind.name, {}, row_of("channels", trace), row_of("sources", trace), {}};
 }
 
 std::vector<TrialSignature> all_signatures() {
   std::vector<TrialSignature> all;
   for (const reference::EffectKind& kind : reference::library_effects()) {
-    const Traced& of = traced(kind.trace);
-    all.push_back({kind.name, {}, of.channels, of.sources});
+    all.push_back(signature(kind));
     if (const auto effect = sim::make_effect(kind.name)) {
       const auto confounders = effect->description().confounders;
       all.back().confounders.assign(confounders.begin(), confounders.end());
     }
   }
   for (const reference::EffectKind& kind : reference::foreign_effects()) {
-    const Traced& of = traced(kind.trace);
-    all.push_back({kind.name, {}, of.channels, of.sources, families_of(kind.name)});
+    all.push_back(signature(kind));
+    all.back().families = row_of("families", kind.name);
   }
   return all;
 }
 
 /// Effects of a vehicle with thrusters that leave nearly the same traces.
 bool is_pair(std::string_view a, std::string_view b) {
-  constexpr std::array<ConfoundedEffects, 10> kPairs{{{"weight", "buoyancy"},
-                                                      {"weight", "gravity_shift"},
-                                                      {"buoyancy", "gravity_shift"},
-                                                      {"buoyancy_shift", "gravity_shift"},
-                                                      {"hard_iron", "compass_deviation"},
-                                                      {"gravity_shift", "tilt_offset"},
-                                                      {"damping", "thrust_scale"},
-                                                      {"damping", "water_current"},
-                                                      {"added_mass", "weight"},
-                                                      {"thruster_offset", "buoyancy"}}};
-  return std::any_of(kPairs.begin(), kPairs.end(), [&](const ConfoundedEffects& pair) {
-    return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+  static const std::vector<Words> kPairs = rows_of("pair");
+  return std::ranges::any_of(kPairs, [&](const Words& pair) {
+    return pair == Words{a, b} || pair == Words{b, a};
   });
 }
 

@@ -17,12 +17,12 @@ struct TrialSignature {
   /// none of a foreign effect. Where the effect is missing from the library, they are its class.
   std::vector<std::string_view> confounders;
   /// Channels in which it may well be the strongest excess, by its reference::Trace.
-  std::span<const std::string_view> channels;
+  std::vector<std::string_view> channels;
   /// Instruments and forces whose error it is, strictly: where it enters, not where that leads (docs/trial.md).
-  std::span<const std::string_view> sources;
+  std::vector<std::string_view> sources;
   /// Families of the quantities that a foreign effect follows, as an answer names them (docs/gap.md); empty for an
   /// effect of the library.
-  std::span<const std::string_view> families{};
+  std::vector<std::string_view> families;
 };
 
 /// Signatures of all effects of the reference simulator: those of the library, then the foreign ones.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "fleet/causes/answer_report.h"
+#include "report/json_members.h"
 
 namespace navcal::fleet {
+
+NAVCAL_JSON_MEMBERS(MissionGap, before, after, floor)
+
 namespace {
 
 using FleetJson = nlohmann::ordered_json;
@@ -30,8 +33,7 @@ FleetJson possible_json(const PossibleCause& cause, const PooledMissions& missio
 
 FleetJson cause_json(const FoundCause& cause, const PooledMissions& missions) {
   FleetJson json = possible_json(cause.acting.cause, missions);
-  json["probability"] = cause.probability;
-  json["probability_of_time"] = cause.probability_of_time;
+  NAVCAL_PUT_MEMBERS(json, cause, probability, probability_of_time);
   json["log_odds_nats"] = cause.log_odds;
   const EffectColumns& effect = missions.effects()[cause.acting.cause.effect];
   for (Eigen::Index j = 0; j < effect.count; ++j) {
@@ -55,15 +57,9 @@ FleetJson causes_json(const std::vector<FoundCause>& causes, const PooledMission
   return list;
 }
 
-FleetJson gap_json(const MissionGap& gap) {
-  return {{"before", gap.before}, {"after", gap.after}, {"floor", gap.floor}};
-}
-
 FleetJson vehicle_json(const VehicleAnswer& vehicle) {
-  FleetJson json{{"vehicle", vehicle.vehicle}, {"verdict", name_of(vehicle.verdict)}};
-  json["gap"] = gap_json(vehicle.gap);
-  json["gap"]["closed"] = vehicle.closed ? FleetJson(*vehicle.closed) : FleetJson();
-  json["gap"]["closed_ci"] = vehicle.closed_ci ? FleetJson(*vehicle.closed_ci) : FleetJson();
+  FleetJson json{{"vehicle", vehicle.vehicle}, {"verdict", name_of(vehicle.verdict)}, {"gap", vehicle.gap}};
+  NAVCAL_PUT_MEMBERS(json["gap"], vehicle, closed, closed_ci);
   json["reason"] = vehicle.reason;
   return json;
 }
@@ -78,8 +74,7 @@ FleetJson history_json(const CalibrationHistory& history) {
     json["step_std"] = history.step_std;
     json["step_at"] = history.points[history.step_at].recording;
   } else if (history.course != CalibrationCourse::too_few) {
-    json["mean"] = history.mean;
-    json["mean_std"] = history.mean_std;
+    NAVCAL_PUT_MEMBERS(json, history, mean, mean_std);
   }
   json["excess_std"] = history.excess_std;
   json["values"] = FleetJson::array();
@@ -107,10 +102,8 @@ std::string fleet_json(const FleetStory& story) {
   for (std::size_t m = 0; m < missions.missions().size(); ++m) {
     const FleetMission& of = missions.missions()[m];
     FleetJson each = mission_json(m, missions);
-    each["vehicle"] = of.vehicle;
-    each["design"] = of.design;
-    each["day"] = of.day;
-    each["gap"] = gap_json(story.answer.missions[m]);
+    NAVCAL_PUT_MEMBERS(each, of, vehicle, design, day);
+    each["gap"] = story.answer.missions[m];
     json["missions"].push_back(std::move(each));
   }
   json["calibrations"] = FleetJson::array();

@@ -5,25 +5,33 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "report/json_members.h"
+
+namespace navcal::base {
+
+NAVCAL_JSON_MEMBERS(GeodeticPosition, latitude_rad, longitude_rad, height_m)
+
+}  // namespace navcal::base
+
+namespace navcal::gap {
+
+/// A bound of a parameter is null where there is none.
+static void to_json(nlohmann::ordered_json& json, const ParameterName& name) {
+  NAVCAL_PUT_MEMBERS(json, name, effect, parameter, typical, least, greatest);
+  for (const char* const bound : {"least", "greatest"}) {
+    if (!std::isfinite(json[bound].get<double>())) json[bound] = nullptr;
+  }
+}
+
+}  // namespace navcal::gap
 
 namespace navcal::fleet {
 namespace {
 
 using InformationJson = nlohmann::ordered_json;
-
-InformationJson list_of(const Eigen::VectorXd& values) {
-  InformationJson list = InformationJson::array();
-  for (const double value : values) list.push_back(value);
-  return list;
-}
-
-/// A bound of a parameter; null: there is none.
-InformationJson bound_json(double bound) {
-  return std::isfinite(bound) ? InformationJson(bound) : InformationJson();
-}
 
 const InformationJson& member(const InformationJson& json, const char* key) {
   if (!json.is_object()) throw std::invalid_argument(fmt::format("{} is looked for in what is no object", key));
@@ -81,36 +89,15 @@ std::vector<gap::ParameterName> parameters_from(const InformationJson& json) {
 }  // namespace
 
 InformationJson information_json(const gap::RecordingInformation& of) {
-  InformationJson json;
-  json["parameters"] = InformationJson::array();
-  for (const gap::ParameterName& name : of.parameters) {
-    json["parameters"].push_back({{"effect", name.effect},
-                                  {"parameter", name.parameter},
-                                  {"typical", name.typical},
-                                  {"least", bound_json(name.least)},
-                                  {"greatest", bound_json(name.greatest)}});
-  }
-  json["score"] = list_of(of.score);
-  json["model_error"] = list_of(of.model_error);
+  InformationJson json{{"parameters", of.parameters},
+                       {"score", std::vector<double>(of.score.begin(), of.score.end())},
+                       {"model_error", std::vector<double>(of.model_error.begin(), of.model_error.end())},
+                       {"information", InformationJson::array()}};
   // The lower triangle, row by row: the matrix is symmetric.
-  json["information"] = InformationJson::array();
   for (Eigen::Index i = 0; i < of.information.rows(); ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) json["information"].push_back(of.information(i, j));
   }
-  json["power"] = of.power;
-  json["measurements"] = of.measurements;
-  json["null_power"] = of.null_power;
-  json["null_power_std"] = of.null_power_std;
-  json["about"] = of.about;
-  if (of.place) {
-    json["place"] = {{"latitude_rad", of.place->latitude_rad},
-                     {"longitude_rad", of.place->longitude_rad},
-                     {"height_m", of.place->height_m}};
-  } else {
-    json["place"] = nullptr;
-  }
-  json["utc_ns"] = of.utc_ns ? InformationJson(*of.utc_ns) : InformationJson();
-  json["duration_s"] = of.duration_s;
+  NAVCAL_PUT_MEMBERS(json, of, power, measurements, null_power, null_power_std, about, place, utc_ns, duration_s);
   return json;
 }
 

@@ -31,7 +31,7 @@ struct Size {
 };
 
 /// Where a departure may well be the strongest excess: where it enters, and where that leads (a wrong rate turns
-/// the predicted attitude, and with it heading, tilt and field). validation/confounded_effects.cpp has the
+/// the predicted attitude, and with it heading, tilt and field). validation/signatures.txt has the
 /// channels.
 enum class Trace : std::uint8_t {
   field,
