@@ -157,10 +157,10 @@ gap::NextMission plan_next_mission(const LayoutStudy& study, const config::Missi
                                    const gap::Progress& progress) {
   const auto* source = dynamic_cast<const FilteredSource*>(study.source.get());
   if (!study.found || source == nullptr) {
-    throw std::invalid_argument(
-        !study.found ? study.diagnosis.sentence
-                     : "no mission can be planned, because the layout cannot follow the recording: " +
-                           study.diagnosis.remarks.back());
+    throw std::invalid_argument(!study.found
+                                    ? study.diagnosis.sentence
+                                    : "no mission is planned for recordings that are judged by mean forces "
+                                      "over steady stretches alone");
   }
   progress("weighing the sets", 0);
   const std::vector<Eigen::Index> columns = cause_columns(study.library);

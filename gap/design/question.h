@@ -70,11 +70,11 @@ void ask_about(const Library& library, const Priors& priors, Question& question)
 /// Point of linearisation of rehearsals (RehearsalProblem::at): curved members of the sets at their estimates.
 [[nodiscard]] Eigen::VectorXd curved_estimates(const Question& question, const Library& library);
 
-/// Sets are made probabilities of those that are counted, in order, at most six, with no effect among them.
 struct WeighedSet {
   EffectSubset effects;
   double probability;
 };
+/// The first six sets of at least this probability, each once, and no effect; their probabilities add up to 1.
 [[nodiscard]] std::vector<WeighedSet> weighed(std::span<const WeighedSet> sets, double counted_from);
 
 [[nodiscard]] Question question_of(const Study& study);
