@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "record/json/put_members.h"
 #include "report/audit_report.h"
-#include "report/json_members.h"
 
 namespace navcal::analysis {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/json_members.h"
+#include "record/json/put_members.h"
 #include "report/noise_report.h"
 #include "report/noise_words.h"
 

@@ -9,8 +9,8 @@
 
 #include "base/utc_text.h"
 #include "devices/instrument_model.h"
+#include "record/json/put_members.h"
 #include "report/html_page.h"
-#include "report/json_members.h"
 #include "report/svg_plot.h"
 #include "report/wrapped_text.h"
 #include "validation/score.h"

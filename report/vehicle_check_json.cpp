@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/angles.h"
-#include "report/json_members.h"
+#include "record/json/put_members.h"
 #include "report/vehicle_report.h"
 
 namespace navcal::identify {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gap/verdict/diagnosis.h"
-#include "report/json_members.h"
+#include "record/json/put_members.h"
 
 namespace navcal::gap {
 

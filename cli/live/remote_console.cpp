@@ -12,6 +12,7 @@
 #include "cli/live/watch_text.h"
 #include "link/host.h"
 #include "link/report.h"
+#include "record/json/put_members.h"
 
 namespace navcal::cli {
 namespace {
@@ -20,17 +21,6 @@ using RemoteObject = nlohmann::ordered_json;
 
 std::string shown_or_dash(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : std::string("-");
-}
-
-RemoteObject json_or_null(const std::optional<double>& value) {
-  return value ? RemoteObject(*value) : RemoteObject(nullptr);
-}
-
-template <std::size_t n>
-RemoteObject json_list(const std::array<std::optional<double>, n>& values) {
-  RemoteObject list = RemoteObject::array();
-  for (const auto& value : values) list.push_back(json_or_null(value));
-  return list;
 }
 
 std::string calibration_name(const link::CalibrationState& state) {
@@ -78,30 +68,18 @@ std::string json_of(const link::Host::NewReport& report, const link::Host::Quali
   RemoteObject out{{"class", "REPORT"}};
   out["time"] = r.time_utc_ms ? RemoteObject(static_cast<double>(*r.time_utc_ms) * 1e-3) : RemoteObject(nullptr);
   out["north"] = r.is_north_true ? "true" : "magnetic";
-  out["heading_deg"] = json_or_null(r.heading_deg);
-  out["pitch_deg"] = json_or_null(r.pitch_deg);
-  out["roll_deg"] = json_or_null(r.roll_deg);
-  out["rate_deg_s"] = json_list(r.rate_deg_s);
-  out["depth_m"] = json_or_null(r.depth_m);
-  out["lat"] = json_or_null(r.latitude_deg);
-  out["lon"] = json_or_null(r.longitude_deg);
-  out["position_std_m"] = json_or_null(r.position_std_m);
-  out["heading_std_deg"] = json_or_null(r.heading_std_deg);
-  out["depth_std_m"] = json_or_null(r.depth_std_m);
-  out["speed_m_s"] = json_or_null(r.speed_m_s);
-  out["climb_m_s"] = json_or_null(r.climb_m_s);
-  out["shaft_rpm"] = json_or_null(r.shaft_rpm);
-  out["fins_deg"] = json_list(r.fins_deg);
-  out["age_s"] = {{"compass", json_or_null(r.compass_age_s)},
-                  {"imu", json_or_null(r.imu_age_s)},
-                  {"gps", json_or_null(r.gps_age_s)},
-                  {"motor", json_or_null(r.motor_age_s)}};
+  NAVCAL_PUT_MEMBERS(out, r, heading_deg, pitch_deg, roll_deg, rate_deg_s, depth_m);
+  out["lat"] = r.latitude_deg;
+  out["lon"] = r.longitude_deg;
+  NAVCAL_PUT_MEMBERS(out, r, position_std_m, heading_std_deg, depth_std_m, speed_m_s, climb_m_s, shaft_rpm,
+                     fins_deg);
+  out["age_s"] = {
+      {"compass", r.compass_age_s}, {"imu", r.imu_age_s}, {"gps", r.gps_age_s}, {"motor", r.motor_age_s}};
   out["alarms"] = r.alarm_names();
-  out["battery_V"] = json_or_null(r.battery_V);
-  out["battery_charge"] = json_or_null(r.battery_charge);
+  NAVCAL_PUT_MEMBERS(out, r, battery_V, battery_charge);
   out["motor"] = {{"holder", r.holder.empty() ? RemoteObject(nullptr) : RemoteObject(base::printable(r.holder))},
                   {"priority", r.priority},
-                  {"expires_in_s", json_or_null(r.expires_in_s)},
+                  {"expires_in_s", r.expires_in_s},
                   {"order", r.order_sequence}};
   out["calibration"] = nullptr;
   if (const auto& calibration = r.calibration)
@@ -112,7 +90,7 @@ std::string json_of(const link::Host::NewReport& report, const link::Host::Quali
   out["link"] = {{"alive", is_alive},
                  {"loss_in", quality.loss_in},
                  {"loss_out", quality.loss_out},
-                 {"round_trip_s", json_or_null(quality.round_trip_s)}};
+                 {"round_trip_s", quality.round_trip_s}};
   return out.dump();
 }
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "fleet/causes/answer_report.h"
-#include "report/json_members.h"
+#include "record/json/put_members.h"
 
 namespace navcal::fleet {
 

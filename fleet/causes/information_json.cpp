@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "report/json_members.h"
+#include "record/json/put_members.h"
 
 namespace navcal::base {
 

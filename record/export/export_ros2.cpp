@@ -58,7 +58,7 @@ class BagFile {
     {
       const RecordScope record(end, Opcode::metadata);
       append_mcap_string(end, "rosbag2");
-      append_mcap_string(end, map_of({{"ROS_DISTRO", "iron"}}));
+      append_mcap_string(end, mcap_map({{"ROS_DISTRO", "iron"}}));
     }
     summary_.add_metadata(bytes_, end.size(), "rosbag2");
     summary_.append_end(end, bytes_ + end.size());
@@ -68,16 +68,6 @@ class BagFile {
   [[nodiscard]] std::uint64_t messages() const { return summary_.messages(); }
 
  private:
-  using Pairs = std::initializer_list<std::pair<std::string_view, std::string_view>>;
-  static std::string map_of(Pairs pairs) {
-    std::string map;
-    for (const auto& [key, value] : pairs) {
-      append_mcap_string(map, key);
-      append_mcap_string(map, value);
-    }
-    return map;
-  }
-
   std::uint16_t channel_of(const RosMessage& message) {
     const auto [channel, is_new] =
         channels_.try_emplace(message.topic, static_cast<std::uint16_t>(channels_.size() + 1));
@@ -90,7 +80,7 @@ class BagFile {
       summary_.add_schema(schema->second, std::string_view(chunk_).substr(begin));
     }
     const std::string metadata =
-        map_of({{"offered_qos_profiles", kOfferedQuality}, {"topic_type_hash", message.type->hash}});
+        mcap_map({{"offered_qos_profiles", kOfferedQuality}, {"topic_type_hash", message.type->hash}});
     const std::size_t begin = chunk_.size();
     append_channel(chunk_, channel->second, schema->second, message.topic, "cdr", metadata);
     summary_.add_channel(channel->second, std::string_view(chunk_).substr(begin));

@@ -56,21 +56,11 @@ struct LogEncoder::State {
     {
       const RecordScope record(out, Opcode::metadata);
       append_mcap_string(out, kProfile);
-      std::string map;
-      append_mcap_string(map, "format");
-      append_mcap_string(map, "1");
-      append_mcap_string(map, kLogOffsetKey);
-      append_mcap_string(map, fmt::format_int(log_offset_ns).str());
-      append_mcap_string(map, "config_crc32c");
-      append_mcap_string(map, config_sum(config_toml));
-      if (!vehicle.id.empty()) {
-        append_mcap_string(map, "vehicle_id");
-        append_mcap_string(map, vehicle.id);
-      }
-      if (!vehicle.name.empty()) {
-        append_mcap_string(map, "vehicle_name");
-        append_mcap_string(map, vehicle.name);
-      }
+      std::string map = mcap_map({{"format", "1"},
+                                  {kLogOffsetKey, fmt::format_int(log_offset_ns).str()},
+                                  {"config_crc32c", config_sum(config_toml)}});
+      if (!vehicle.id.empty()) map += mcap_map({{"vehicle_id", vehicle.id}});
+      if (!vehicle.name.empty()) map += mcap_map({{"vehicle_name", vehicle.name}});
       append_mcap_string(out, map);
     }
     summary.add_metadata(begin, out.size() - begin, kProfile);
@@ -90,15 +80,10 @@ struct LogEncoder::State {
   }
 
   void append_raw_channel(std::string& out, std::uint16_t port) {
-    std::string metadata;
-    append_mcap_string(metadata, "baud");
-    append_mcap_string(metadata, fmt::format_int(ports[port].baud).str());
-    append_mcap_string(metadata, "protocol");
-    append_mcap_string(metadata, protocols::name_of(ports[port].protocol));
-    if (!ports[port].serial_number.empty()) {
-      append_mcap_string(metadata, "serial_number");
-      append_mcap_string(metadata, ports[port].serial_number);
-    }
+    std::string metadata = mcap_map({{"baud", fmt::format_int(ports[port].baud).str()},
+                                     {"protocol", protocols::name_of(ports[port].protocol)}});
+    if (const auto& serial = ports[port].serial_number; !serial.empty())
+      metadata += mcap_map({{"serial_number", serial}});
     append_channel(out, static_cast<std::uint16_t>(topic::kFirstRaw + port), 0,
                    std::string(topic::kRawPrefix) + ports[port].name, kRawEncoding, metadata);
   }

@@ -4,16 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "base/durations.h"
 #include "base/printable.h"
 #include "base/utc_text.h"
 #include "record/json/flat_json.h"
+#include "record/json/json_members.h"
 #include "record/json/json_object.h"
+#include "record/json/put_members.h"
 #include "record/recording.h"
 
 namespace navcal::record {
+
+NAVCAL_JSON_MEMBERS(RecordingInfo::Topic, messages, bytes)
+NAVCAL_JSON_MEMBERS(RecordingInfo::Event, time, severity, name, port, message)
 
 namespace {
 
@@ -179,34 +183,13 @@ std::string to_json(const RecordingInfo& info) {
   json["duration_s"] = seconds(info.end_utc_ns - info.start_utc_ns);
   json["ports"] = ordered_json::array();
   for (const auto& port : info.ports) {
-    json["ports"].push_back({{"name", port.name},
-                             {"protocol", port.protocol},
-                             {"baud", port.baud},
-                             {"reads", port.reads},
-                             {"received_bytes", port.received_bytes},
-                             {"sent", port.sent},
-                             {"sent_bytes", port.sent_bytes},
-                             {"longest_gap_s", seconds(port.longest_gap_ns)},
-                             {"gaps", port.gaps}});
+    auto& one = json["ports"].emplace_back();
+    NAVCAL_PUT_MEMBERS(one, port, name, protocol, baud, reads, received_bytes, sent, sent_bytes);
+    one["longest_gap_s"] = seconds(port.longest_gap_ns);
+    one["gaps"] = port.gaps;
   }
-  json["topics"] = ordered_json::object();
-  for (const auto& [topic, count] : info.topics) {
-    json["topics"][topic] = {{"messages", count.messages}, {"bytes", count.bytes}};
-  }
-  json["events"] = ordered_json::array();
-  for (const auto& event : info.events) {
-    json["events"].push_back({{"time", event.time},
-                              {"severity", event.severity},
-                              {"name", event.name},
-                              {"port", event.port},
-                              {"message", event.message}});
-  }
-  json["further_events"] = info.further_events;
-  json["bad_crc"] = info.bad_crc;
-  json["damaged_bytes"] = info.damaged_bytes;
-  json["tail_bytes"] = info.tail_bytes;
-  json["remarks"] = info.remarks;
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  NAVCAL_PUT_MEMBERS(json, info, topics, events, further_events, bad_crc, damaged_bytes, tail_bytes, remarks);
+  return json_text(json) + "\n";
 }
 
 }  // namespace navcal::record

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace navcal::record {
 
@@ -25,7 +26,7 @@ struct Topic {
   std::uint16_t id = 0;
   std::string_view name;
   std::string_view schema_name;
-  std::span<const Field> fields;  ///< besides "class" and "crc"; /health and /calib have more than is listed
+  std::vector<Field> fields;  ///< besides "class" and "crc"; /health and /calib have more than is listed
 };
 
 namespace topic {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace navcal::record {
 
@@ -64,6 +66,17 @@ inline void append_mcap_string(std::string& out, std::string_view text) {
   out += text;
 }
 
+/// A map of texts.
+[[nodiscard]] inline std::string mcap_map(
+    std::initializer_list<std::pair<std::string_view, std::string_view>> pairs) {
+  std::string map;
+  for (const auto& [key, value] : pairs) {
+    append_mcap_string(map, key);
+    append_mcap_string(map, value);
+  }
+  return map;
+}
+
 /// Begins a record; its length is filled in when this goes out of scope.
 class RecordScope {
  public:
@@ -93,7 +106,7 @@ inline void append_schema(std::string& out, std::uint16_t id, std::string_view n
   append_mcap_string(out, data);
 }
 
-/// `metadata`: pairs of texts.
+/// `metadata`: of mcap_map().
 inline void append_channel(std::string& out, std::uint16_t id, std::uint16_t schema, std::string_view topic,
                            std::string_view encoding, std::string_view metadata) {
   const RecordScope record(out, Opcode::channel);

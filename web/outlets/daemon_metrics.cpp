@@ -7,7 +7,6 @@
 #include <span>
 
 #include "web/outlets/json_members.h"
-#include "web/outlets/members.h"
 
 namespace navcal::web {
 namespace {
@@ -15,10 +14,6 @@ namespace {
 using nlohmann::json;
 
 using Names = std::span<const char* const>;
-
-void append_members(Exposition& out, const json& object, const Members& members) {
-  for (const Member& member : members) out.single(member.name, member.help, member.of(object));
-}
 
 using Objects = std::vector<const json*>;
 
@@ -106,6 +101,10 @@ void append_ports(Exposition& out, const std::vector<json>& health_parts) {
 }
 
 }  // namespace
+
+void append_members(Exposition& out, const json& object, const Members& members) {
+  for (const Member& member : members) out.single(member.name, member.help, member.of(object));
+}
 
 void append_health(Exposition& out, const std::vector<json>& parts) {
   if (parts.empty()) return;

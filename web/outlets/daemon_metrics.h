@@ -5,12 +5,15 @@
 #include <vector>
 
 #include "web/outlets/exposition.h"
+#include "web/outlets/members.h"
 
 namespace navcal::web {
 
 /// What messages of the log say, as metrics of navcald (docs/wires.md). Members that are absent or null give no
 /// line; objects of another shape give fewer lines, never an error.
 
+/// Each member of the object as a metric of its own.
+void append_members(Exposition& out, const nlohmann::json& object, const Members& members);
 /// `parts`: the lines of one HEALTH.
 void append_health(Exposition& out, const std::vector<nlohmann::json>& parts);
 /// `time`: the newest message of /time, null while there was none; HEALTH then tells of the clock.

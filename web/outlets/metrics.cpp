@@ -9,6 +9,7 @@
 #include <iterator>
 #include <optional>
 
+#include "record/json/put_members.h"
 #include "web/outlets/daemon_metrics.h"
 #include "web/outlets/json_members.h"
 
@@ -106,29 +107,16 @@ void Metrics::append_daemon(Exposition& out) const {
 void Metrics::append_program(Exposition& out) const {
   out.single("navcal_web_records_total", "Records taken from navcald.", hub_.published());
   if (source_ != nullptr) {
-    out.single("navcal_web_status_connections_total", "Connections to navcald.", source_->connections);
-    out.single("navcal_web_status_lines_total", "Lines taken from navcald.", source_->lines);
-    out.single("navcal_web_status_not_understood_lines_total", "Lines that are not navcald's.",
-               source_->not_understood);
-    out.single("navcal_web_status_missed_reports",
-               "Reports that this connection to navcald missed, because navcal-web was too slow.",
-               source_->missed);
+    nlohmann::json source;
+    NAVCAL_PUT_MEMBERS(source, *source_, connections, lines, not_understood, missed);
+    append_members(out, source, members_of("source"));
   }
   if (server_ != nullptr) {
-    out.single("navcal_web_connections_total", "Connections accepted.", server_->connections);
-    out.single("navcal_web_refused_connections_total", "Connections closed because of the bound.",
-               server_->connections_refused);
-    out.single("navcal_web_requests_total", "HTTP requests.", server_->requests);
-    out.single("navcal_web_refused_requests_total", "HTTP requests answered with 400 and above.",
-               server_->requests_refused);
-    out.single("navcal_web_broken_requests_total", "No HTTP, too large, or not complete in time.",
-               server_->requests_broken);
-    out.single("navcal_web_websockets_total", "WebSocket clients since the start.", server_->web_sockets);
-    out.single("navcal_web_websockets", "WebSocket clients now.", server_->web_sockets_open);
-    out.single("navcal_web_sent_messages_total", "WebSocket messages sent.", server_->messages_sent);
-    out.single("navcal_web_dropped_messages_total", "WebSocket messages dropped, because the client did not read.",
-               server_->messages_dropped);
-    out.single("navcal_web_sent_bytes_total", "Bytes of WebSocket messages sent.", server_->bytes_sent);
+    nlohmann::json server;
+    NAVCAL_PUT_MEMBERS(server, *server_, connections, connections_refused, requests, requests_refused,
+                       requests_broken, web_sockets, web_sockets_open, messages_sent, messages_dropped,
+                       bytes_sent);
+    append_members(out, server, members_of("server"));
   }
   append_process(out);
 }

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "record/json/put_members.h"
 #include "web/outlets/chrony.h"
+#include "web/outlets/daemon_metrics.h"
 #include "web/outlets/mavlink.h"
 #include "web/outlets/metrics.h"
 #include "web/outlets/mqtt.h"
@@ -37,31 +39,18 @@ struct Outlets::Parts {
   Parts& operator=(const Parts&) = delete;
 
   void append(Exposition& out) const {
+    nlohmann::json counters;
     if (mqtt) {
-      out.single("navcal_web_mqtt_connected", "1 while there is a connection to the MQTT broker.",
-                 mqtt_counters.connected);
-      out.single("navcal_web_mqtt_published_messages_total", "Messages that the MQTT broker got.",
-                 mqtt_counters.published);
-      out.single("navcal_web_mqtt_dropped_messages_total",
-                 "Messages dropped, because there was no MQTT broker or it was too slow.", mqtt_counters.dropped);
+      NAVCAL_PUT_MEMBERS(counters, mqtt_counters, connected, published, dropped);
+      append_members(out, counters, members_of("mqtt"));
     }
     if (chrony) {
-      out.single("navcal_web_chrony_samples_total", "Samples that chronyd got.", chrony->counters().samples);
-      out.single("navcal_web_chrony_failed_samples_total", "Samples that nobody took.",
-                 chrony->counters().not_sent);
+      NAVCAL_PUT_MEMBERS(counters, chrony->counters(), samples, not_sent);
+      append_members(out, counters, members_of("chrony"));
     }
     if (mavlink) {
-      out.single("navcal_web_mavlink_open", "1 while the line of MAVLink is open.", mavlink_counters.open);
-      out.single("navcal_web_mavlink_position", "1 while a position goes out by MAVLink.",
-                 mavlink_counters.has_position);
-      out.single("navcal_web_mavlink_sent_messages_total", "Messages that the line of MAVLink took.",
-                 mavlink_counters.sent);
-      out.single("navcal_web_mavlink_dropped_messages_total",
-                 "Messages dropped, because the line of MAVLink was away or too slow.", mavlink_counters.dropped);
-      out.single("navcal_web_mavlink_received_messages_total", "Messages that came by MAVLink.",
-                 mavlink_counters.received);
-      out.single("navcal_web_mavlink_refused_messages_total", "Of those, messages without a good signature.",
-                 mavlink_counters.refused);
+      NAVCAL_PUT_MEMBERS(counters, mavlink_counters, open, has_position, sent, dropped, received, refused);
+      append_members(out, counters, members_of("mavlink"));
     }
   }
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-/// An absent value is null.
+/// An absent value is null, when it becomes JSON.
 template <class Value>
 struct nlohmann::adl_serializer<std::optional<Value>> {
   template <class Json>
