@@ -52,8 +52,9 @@ void expect_writable(const GapNextOptions& options) {
                         options.mission + ": this mission is there already; --overwrite replaces it");
   }
   const report::GapSource& asked = options.asked.source;
-  expect_results(all_paths({asked.missions, asked.holdouts, options.nominals}, {asked.vehicle, asked.config, options.limits}),
-                 {options.mission, options.json, options.report});
+  expect_results(
+      all_paths({asked.missions, asked.holdouts, options.nominals}, {asked.vehicle, asked.config, options.limits}),
+      {options.mission, options.json, options.report});
 }
 
 void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
