@@ -94,6 +94,19 @@ void write_apart(const Judged& of, std::span<const RecordingModel* const> parts,
     for (const std::size_t cause : alone.sets.front().causes)
       answer.recordings[i].alone->effects.push_back(of.library.causes[cause].words());
   }
+  // A cause that has another size in each recording, and that none of them has by itself, is none: it only takes
+  // up what they disagree in.
+  const bool contradict = std::ranges::any_of(answer.differences, [&](const gap::EffectDifference& each) {
+    const std::string words = each.of.empty() ? each.name : each.name + " of " + each.of;
+    return each.differs && std::ranges::none_of(answer.recordings, [&](const gap::RecordingFinding& finding) {
+             return std::ranges::count(finding.alone->effects, words) > 0;
+           });
+  });
+  if (contradict && answer.verdict == gap::Verdict::explained) {
+    answer.verdict = gap::Verdict::unknown;
+    answer.kind = gap::UnknownKind::outside;
+    answer.effects.clear();
+  }
   const std::string sentence = answer.sentence;
   gap::write_alone(answer);
   // That one of them alone shows too little is no contradiction.

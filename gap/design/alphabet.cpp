@@ -119,6 +119,8 @@ Regime regime_of(const config::VehicleSettings& vehicle, const config::MissionLi
 Regime regime_of(double greatest_m_s, const config::MissionLimits& limits) {
   Regime r{.by_shaft = false};
   set_speeds(std::min(greatest_m_s, kNearLimit * limits.speed_m_s), r);
+  // The slowest that a mission can state.
+  for (double* speed_m_s : {&r.slow, &r.cruise, &r.fast}) *speed_m_s = std::max(*speed_m_s, 0.05);
   r.surfaces = limits.least_depth_m <= 0.2;
   const double span_m = limits.greatest_depth_m - limits.least_depth_m;
   // A dive overshoots by some decimetres.

@@ -60,5 +60,19 @@ TEST(DiagnoseLayout, WhatHoldsInOneRecordingAndNotInAnotherIsSaid) {
   EXPECT_TRUE(answer.recordings[1].alone->effects.empty());
 }
 
+// Two recordings of opposite changes had a dead band of one thruster and the lag of another, which neither shows.
+TEST(DiagnoseLayout, ACauseThatOnlyTakesUpADisagreementIsNotNamed) {
+  const auto of = micro();
+  const auto with = [&](double scale, std::uint64_t seed) {
+    return recording(of, changed(of.prior, "thrust_scale", "thruster.2", {scale}), seed);
+  };
+  const gap::Diagnosis answer =
+      diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
+               {with(-0.25, 1), {}, {recording(of, of.prior, 11), recording(of, of.prior, 31)}, {with(0.25, 21)}},
+               [](std::string_view, double) {});
+  for (const gap::EffectFinding& effect : answer.effects)
+    EXPECT_EQ(effect.words(), "thrust_scale of thruster.2") << answer.sentence;
+}
+
 }  // namespace
 }  // namespace navcal::diagnosis
