@@ -215,8 +215,7 @@ class Planner {
         task.vehicle = vehicle.key;
         if (vehicle.is_layout) {
           if (!job->takes_layout)
-            throw std::invalid_argument(
-                fmt::format("--job {}: not for a vehicle with a layout", job->name));
+            throw std::invalid_argument(fmt::format("--job {}: not for a vehicle with a layout", job->name));
           if (std::ranges::count(nominals_, file.recording, &RecordingFile::recording) > 0) continue;
         }
         if (job->uses_bank) {
