@@ -23,7 +23,7 @@ config::Mission once(config::Mission mission) {
   return mission;
 }
 
-/// How a recording measured a channel.
+/// The readings of a channel: when they come, and their noise.
 struct Sampling {
   double first_s = 0, interval_s = 1, std = 0;
 };

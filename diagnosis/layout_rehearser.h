@@ -12,8 +12,8 @@ namespace navcal::diagnosis {
 /// noises. The readings have no noise, the unknowns are those of one recording.
 class LayoutRehearser final : public gap::Rehearser {
  public:
-  /// What is referred to must outlive it. `nominal`: departures of the nominal vehicle. `change_of`: departures
-  /// that a hypothesis adds.
+  /// All that is referred to must outlive it. `nominal`: departures of the nominal vehicle. `change_of`:
+  /// departures that a hypothesis adds.
   LayoutRehearser(const config::Layout& layout, const CauseLibrary& library, const FilteredSource& source,
                   const identify::RecordedMotion& like, const Eigen::VectorXd& nominal,
                   std::function<Eigen::VectorXd(const gap::Hypothesis&)> change_of)
@@ -29,7 +29,7 @@ class LayoutRehearser final : public gap::Rehearser {
   [[nodiscard]] gap::Rehearsal rehearse(const config::Mission& mission, double duration_s,
                                         std::span<const double> part_began_s) const override;
 
-  /// What a recording of a mission of the nominal vehicle says, but for noise. Throws sim::UnstableVehicle.
+  /// A recording of a mission of the nominal vehicle, without noise. Throws sim::UnstableVehicle.
   [[nodiscard]] identify::RecordedMotion sailed(const config::Mission& mission, double duration_s) const;
 
  private:

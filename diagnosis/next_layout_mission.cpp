@@ -52,7 +52,7 @@ MissionPurpose purpose_of(const LayoutStudy& study) {
              : MissionPurpose::separate;
 }
 
-/// What the recordings so far tell of the changes that causes make in another recording: log p of it is that of
+/// The recordings so far as a prior of another one, for the changes that causes make: its log p is that of
 /// its departures x, with x = mean + changed a + root z, z ~ N(0, 1), for changes a of all recordings alike.
 struct AnotherRecording {
   Eigen::MatrixXd changed, root;
