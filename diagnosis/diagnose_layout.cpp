@@ -97,9 +97,8 @@ void write_apart(const Judged& of, std::span<const RecordingModel* const> parts,
   // A cause that has another size in each recording, and that none of them has by itself, is none: it only takes
   // up what they disagree in.
   const bool contradict = std::ranges::any_of(answer.differences, [&](const gap::EffectDifference& each) {
-    const std::string words = each.of.empty() ? each.name : each.name + " of " + each.of;
     return each.differs && std::ranges::none_of(answer.recordings, [&](const gap::RecordingFinding& finding) {
-             return std::ranges::count(finding.alone->effects, words) > 0;
+             return std::ranges::count(finding.alone->effects, each.words()) > 0;
            });
   });
   if (contradict && answer.verdict == gap::Verdict::explained) {
@@ -150,8 +149,7 @@ void find_causes(LayoutStudy& study, const gap::Progress& progress) {
       : bank.powers.size() == 1 ? "the floor is that of 1 nominal recording, which does not show how recordings "
                                   "differ: give more (--nominal)"
                                 : fmt::format("the floor is that of {} nominal recordings", bank.powers.size()));
-  auto& compared = study.models;
-  compared = those_judged(recordings, *study.source, bank, answer);
+  std::vector<std::unique_ptr<RecordingModel>> compared = those_judged(recordings, *study.source, bank, answer);
   std::vector<const RecordingModel*> parts;
   for (const auto& one : compared) parts.push_back(one.get());
   const bool are_several = parts.size() > 1;
@@ -237,7 +235,6 @@ std::unique_ptr<LayoutStudy> study(LayoutRequest request, LayoutRecordings recor
   // Why the recording is not judged so; empty: it is.
   const auto judge = [&](const auto& make_source) -> std::string {
     try {
-      study->models.clear();
       make_source();
       find_causes(*study, progress);
       return {};

@@ -47,8 +47,7 @@ struct LayoutStudy {
   CauseLibrary library;
   std::unique_ptr<ModelSource> source;
   NominalBank bank;
-  std::vector<std::unique_ptr<RecordingModel>> models;  ///< of the recordings judged; behind several, all together
-  std::optional<CauseSearchResult> found;               ///< nullopt: no recording can be judged
+  std::optional<CauseSearchResult> found;  ///< nullopt: no recording can be judged
   gap::Diagnosis diagnosis;
 };
 

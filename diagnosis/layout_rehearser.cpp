@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/statistics.h"
+#include "base/vectors.h"
 #include "identify/data/actuator_inputs.h"
 #include "identify/replay/predicted_readings.h"
 #include "sim/layout/control/layout_mission_helm.h"
@@ -17,11 +18,6 @@ namespace {
 using identify::Channel;
 using identify::RecordedMotion;
 using identify::Signal;
-
-config::Mission once(config::Mission mission) {
-  mission.at_end = config::MissionEnd::hold;
-  return mission;
-}
 
 /// The readings of a channel: when they come, and their noise.
 struct Sampling {
@@ -57,18 +53,18 @@ double deepest_fix_m(const RecordedMotion& like) {
 identify::MotionPoint point_of(const sim::SimulatedMotion& motion, double time_s) {
   constexpr double kHalf_s = 0.01;
   const auto state_at = [&](double at_s) { return motion.at(std::llround(at_s * 1e9)); };
-  const auto vector = [](const sim::Vector3& v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
+  using base::vector_of;
   const sim::State state = state_at(time_s);
   identify::MotionPoint point;
-  point.body.position_m = vector(state.position_m);
-  point.body.euler_rad = vector(state.euler_rad);
-  point.body.velocity << vector(state.velocity_body_m_s), vector(state.rate_rad_s);
-  const Eigen::Vector3d omega = vector(state.rate_rad_s);
+  point.body.position_m = vector_of(state.position_m);
+  point.body.euler_rad = vector_of(state.euler_rad);
+  point.body.velocity << vector_of(state.velocity_body_m_s), vector_of(state.rate_rad_s);
+  const Eigen::Vector3d omega = vector_of(state.rate_rad_s);
   const double from_s = std::max(time_s - kHalf_s, 0.0);
-  point.acceleration << vector(state.specific_force_m_s2) - omega.cross(vector(state.velocity_body_m_s)) +
+  point.acceleration << vector_of(state.specific_force_m_s2) - omega.cross(vector_of(state.velocity_body_m_s)) +
                             base::kGravity_m_s2 *
                                 identify::world_from_body(point.body.euler_rad).row(2).transpose(),
-      (vector(state_at(time_s + kHalf_s).rate_rad_s) - vector(state_at(from_s).rate_rad_s)) /
+      (vector_of(state_at(time_s + kHalf_s).rate_rad_s) - vector_of(state_at(from_s).rate_rad_s)) /
           (time_s + kHalf_s - from_s);
   return point;
 }
@@ -134,7 +130,7 @@ bool LayoutRehearser::can(const config::Mission& mission) const {
 gap::PlannedPath LayoutRehearser::path(const config::Mission& mission, double longest_s,
                                        const gap::Hypothesis* changed) const {
   // The autopilot knows the nominal vehicle.
-  auto helm = std::make_unique<sim::LayoutMissionHelm>(layout_, once(mission));
+  auto helm = std::make_unique<sim::LayoutMissionHelm>(layout_, gap::once(mission));
   const sim::LayoutMissionHelm& under_way = *helm;
   const config::Layout sails = changed == nullptr ? layout_ : with(layout_, change_of_(*changed));
   try {
@@ -157,7 +153,7 @@ RecordedMotion LayoutRehearser::sailed(const config::Mission& mission, double du
   sailed.order_times_s.clear();
   sailed.ordered_fins_rad.clear();
   sailed.duration_s = duration_s;
-  const sim::SimulatedMotion motion(layout_, std::make_unique<sim::LayoutMissionHelm>(layout_, once(mission)),
+  const sim::SimulatedMotion motion(layout_, std::make_unique<sim::LayoutMissionHelm>(layout_, gap::once(mission)),
                                     {.history_s = 20});
   std::array<Sampling, identify::kChannels> sampling;
   std::array<double, identify::kChannels> next_s;

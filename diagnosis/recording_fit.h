@@ -182,7 +182,7 @@ class FittedRecording final : public RecordingModel {
   [[nodiscard]] const identify::RecordedMotion& recording() const override { return filter_.recording(); }
   [[nodiscard]] std::vector<std::string> oddities() const override { return filter_.oddities(); }
   [[nodiscard]] std::optional<identify::FilterPass> follow(const Eigen::VectorXd& at) const;
-  /// By all columns. nullopt: a vehicle with these departures could not have moved so.
+  /// The derivatives by all columns. nullopt: a vehicle with these departures could not have moved so.
   [[nodiscard]] std::optional<identify::FilterLinearised> linearised(const Eigen::VectorXd& at) const;
   [[nodiscard]] identify::FilteredReplay& filter() { return filter_; }
   [[nodiscard]] const identify::FilteredReplay& filter() const { return filter_; }
@@ -207,7 +207,7 @@ class FilteredSource final : public ModelSource {
 
   [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override;
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
-  /// With the present noises.
+  /// A recording followed with the present noises, its gains not held.
   [[nodiscard]] std::unique_ptr<FittedRecording> fitted(const identify::RecordedMotion& recording) const {
     return std::make_unique<FittedRecording>(layout_, library_, recording, noises_, threads_);
   }

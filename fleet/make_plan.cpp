@@ -189,17 +189,15 @@ class Planner {
     PlannedVehicle vehicle{{}, config::is_layout(toml)};
     toml = vehicle.is_layout ? config::layout_file(config::parse_layout(toml, file.native()))
                              : config::vehicle_file(config::parse_vehicle(toml, file.native()));
-    std::string keyed = toml;
-    if (vehicle.is_layout) {
-      for (const RecordingFile& nominal : nominals_) keyed += nominal.recording;
-    } else if (!nominals_.empty()) {
+    if (!vehicle.is_layout && !nominals_.empty()) {
       throw std::invalid_argument(
           "--nominal needs a layout (--vehicle): the floor of other vehicles is simulated");
     }
+    std::string keyed = toml;
+    for (const RecordingFile& nominal : nominals_) keyed += nominal.recording;
     vehicle.key = record::sha256_of(keyed);
     add_vehicle(database_, vehicle.key, file.empty() ? "the reference vehicle" : file.string(), toml);
-    if (vehicle.is_layout)
-      for (const RecordingFile& nominal : nominals_) add_nominal(database_, vehicle.key, nominal.recording);
+    for (const RecordingFile& nominal : nominals_) add_nominal(database_, vehicle.key, nominal.recording);
     return found->second = vehicle;
   }
 

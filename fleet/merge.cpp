@@ -8,6 +8,7 @@
 
 #include "base/failure.h"
 #include "fleet/whole_writing.h"
+#include "gap/verdict/diagnosis.h"
 #include "record/json/json_members.h"
 
 namespace navcal::fleet {
@@ -48,8 +49,7 @@ MergeSummary fill(const Plan& plan, Database& database) {
 }  // namespace
 
 std::string words_of(const MergedJson& effect) {
-  const std::string part = text_in(effect, "of");
-  return text_in(effect, "name") + (part.empty() ? "" : " of " + part);
+  return gap::effect_words(text_in(effect, "name"), text_in(effect, "of"));
 }
 
 void make_merge_tables(Database& database) { database.execute(merge_tables()); }

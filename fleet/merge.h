@@ -35,7 +35,7 @@ class MergeTables {
   Statement recording_, vehicle_, task_, gap_, where_, effect_, parameter_, calibrator_, quantity_;
 };
 
-/// "fin_gain", or "thrust_scale of thruster.2" of a layout.
+/// An effect of an answer in words (gap::effect_words).
 [[nodiscard]] std::string words_of(const nlohmann::ordered_json& effect);
 
 struct MergeSummary {

@@ -26,7 +26,7 @@ struct Regime {
   bool surfaces = false;  ///< steps to the surface are within the limits
 };
 [[nodiscard]] Regime regime_of(const config::VehicleSettings& vehicle, const config::MissionLimits& limits);
-/// Of a vehicle whose missions have speeds through the water. `greatest_m_s`: that it can keep.
+/// The same for missions with speeds through the water. `greatest_m_s`: the speed that the vehicle can keep.
 [[nodiscard]] Regime regime_of(double greatest_m_s, const config::MissionLimits& limits);
 
 /// All manoeuvres. Whether each stays within the limits shows when it is simulated.

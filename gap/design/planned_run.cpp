@@ -25,11 +25,6 @@ constexpr double kSteepest_deg = 45;
 /// Depth above which a step to the surface keeps the vehicle, m.
 constexpr double kAwash_m = 0.02;
 
-config::Mission once(config::Mission mission) {
-  mission.at_end = config::MissionEnd::hold;
-  return mission;
-}
-
 double turn_of(const sim::State& state) {
   return (std::sin(state.euler_rad[0]) * state.rate_rad_s[1] +
           std::cos(state.euler_rad[0]) * state.rate_rad_s[2]) /
@@ -52,6 +47,11 @@ void append(const sim::State& state, double time_s, PlannedPath& path) {
 }
 
 }  // namespace
+
+config::Mission once(config::Mission mission) {
+  mission.at_end = config::MissionEnd::hold;
+  return mission;
+}
 
 PlannedPath planned_path(const config::VehicleSettings& vehicle, const config::Mission& mission,
                          const sim::EffectSet& effects, double longest_s) {

@@ -26,6 +26,9 @@ struct PlannedPath {
   bool has_card = true;
 };
 
+/// The mission without a repetition.
+[[nodiscard]] config::Mission once(config::Mission mission);
+
 /// Path of a motion until its mission is finished or `longest_s` is over, without the begins of its steps. Throws
 /// sim::UnstableVehicle.
 [[nodiscard]] PlannedPath path_of(const sim::SimulatedMotion& motion, const std::function<bool()>& is_finished,

@@ -64,7 +64,7 @@ struct Question {
   [[nodiscard]] Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& planned) const;
 };
 
-/// What a library and its priors say of a question.
+/// Writes names, tested parameters, tolerances and unknowns of a question, by a library and its priors.
 void ask_about(const Library& library, const Priors& priors, Question& question);
 
 /// Point of linearisation of rehearsals (RehearsalProblem::at): curved members of the sets at their estimates.

@@ -38,8 +38,8 @@ class Rehearser {
                                            std::span<const double> part_began_s) const = 0;
 };
 
-/// What a vehicle of one propeller and three fins is rehearsed with. References; valid as long as what they refer
-/// to.
+/// A vehicle of one propeller and three fins, with all that its rehearsals need. What the references name must
+/// outlive it.
 struct RehearsalProblem {
   const config::VehicleSettings& vehicle;
   const Library& library;

@@ -94,6 +94,11 @@ struct Confusion {
   double separation_nats = 0;  ///< expected log evidence between both in this mission
 };
 
+/// "fin_gain", or "thrust_scale of thruster.2" where it belongs to a part of a layout.
+[[nodiscard]] inline std::string effect_words(const std::string& name, const std::string& of) {
+  return of.empty() ? name : name + " of " + of;
+}
+
 struct EffectFinding {
   std::string name;
   double probability = 0;
@@ -102,7 +107,7 @@ struct EffectFinding {
   std::string manoeuvre = {};  ///< the manoeuvre that shows the effect
   std::string of = {};         ///< part of a layout that it belongs to: "thruster.2"; empty: the vehicle
 
-  [[nodiscard]] std::string words() const { return of.empty() ? name : name + " of " + of; }
+  [[nodiscard]] std::string words() const { return effect_words(name, of); }
 };
 
 /// Share of the gap that goes away: `closed` = 1 - (after - floor) / (before - floor), on held-out data. Empty
@@ -194,6 +199,8 @@ struct EffectDifference {
   double p_value = 1;  ///< of estimates that differ as much by their errors
   bool differs = false;
   std::string of = {};  ///< part of a layout that it belongs to
+
+  [[nodiscard]] std::string words() const { return effect_words(name, of); }
 };
 
 /// Smallest size of an effect that would have stood out.
@@ -202,7 +209,7 @@ struct LeastVisible {
   std::optional<double> value;      ///< its size, in the parameter's unit; empty: no size would
   double typical = 1;
 
-  [[nodiscard]] std::string words() const { return of.empty() ? name : name + " of " + of; }
+  [[nodiscard]] std::string words() const { return effect_words(name, of); }
 };
 
 struct Diagnosis {

@@ -35,7 +35,8 @@ TEST_P(AchievedSeparation, IsWithinAQuarterOfThePrediction) {
   const RehearsalProblem problem = planned.problem();
   config::MissionLimits limits;
   limits.duration_s = 150;
-  const RehearsedPlan plan = Planner(question, ReferenceRehearser(problem), limits, [](std::string_view, double) {}).plan();
+  const RehearsedPlan plan =
+      Planner(question, ReferenceRehearser(problem), limits, [](std::string_view, double) {}).plan();
   // The strength of the truth is known here, that of the rival is not.
   Hypothesis a = question.hypotheses[0];
   for (const Eigen::Index j : parameter_indices(planned.library(), a.effects)) a.spread.row(j) *= 0.05;
