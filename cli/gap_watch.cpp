@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/failure.h"
 #include "base/interruptible.h"
@@ -26,11 +27,13 @@
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
+#include "diagnosis/layout_windows.h"
 #include "emulation/chosen_vehicle.h"
 #include "emulation/place_arguments.h"
 #include "gap/data/mission.h"
 #include "gap/thresholds.h"
 #include "gap/watch/live_records.h"
+#include "gap/watch/reference.h"
 #include "gap/watch/state_file.h"
 #include "record/recording.h"
 #include "report/gap_watch_report.h"
@@ -44,6 +47,7 @@ struct GapWatchOptions {
   std::string host = "127.0.0.1";
   int port = 2947;
   std::string vehicle, config, recording, state, metrics;
+  std::vector<std::string> nominals;
   std::filesystem::path cache;
   emulation::PlaceArguments where;
   double false_alarms_per_h = gap::Watch::Options{}.false_alarms_per_h;
@@ -53,10 +57,9 @@ struct GapWatchOptions {
   std::uint64_t bank_seed = 1;
 };
 
-/// What a watch is made of.
+/// What a watch of the reference vehicle is made of.
 struct Setting {
   config::VehicleSettings vehicle;
-  std::optional<config::Settings> settings;  ///< of --config
   devices::InstrumentModel instruments;
   gap::EarthField field;
 };
@@ -134,26 +137,22 @@ std::optional<gap::EarthField> field_by_fix(const GapWatchOptions& options, Cloc
   return std::nullopt;
 }
 
-std::optional<Setting> setting_of(const GapWatchOptions& options, Clock::time_point end) {
-  Setting setting;
-  if (!options.vehicle.empty()) {
-    const auto vehicle = emulation::load_chosen_vehicle(options.vehicle);
-    if (!std::holds_alternative<config::VehicleSettings>(vehicle))
-      throw std::invalid_argument("--vehicle: a vehicle file is needed; the watch has no model of a layout yet");
-    setting.vehicle = std::get<config::VehicleSettings>(vehicle);
-  }
-  if (!options.config.empty()) {
-    setting.settings = config::load(options.config);
-    setting.instruments = devices::without_mounting(devices::instrument_model(*setting.settings));
-  }
+std::optional<std::array<double, 3>> given_field(const GapWatchOptions& options) {
   const auto now_ns =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
           .count();
-  const auto given = emulation::chosen_field_uT(options.where, now_ns);
+  return emulation::chosen_field_uT(options.where, now_ns);
+}
+
+std::optional<Setting> setting_of(const GapWatchOptions& options, config::VehicleSettings vehicle,
+                                  const std::optional<config::Settings>& settings, Clock::time_point end) {
+  Setting setting{std::move(vehicle), {}, {}};
+  if (settings) setting.instruments = devices::without_mounting(devices::instrument_model(*settings));
+  const auto given = given_field(options);
   if (!options.recording.empty()) {
     base::Progress progress("gap watch", base::Progress::Answer::at_the_end);
     const gap::Mission mission = gap::load_mission(
-        options.recording, [&](double done) { progress.show("reading", done); }, setting.settings);
+        options.recording, [&](double done) { progress.show("reading", done); }, settings);
     if (const auto problem = mission.shortcoming(); !problem.empty())
       throw record::BadRecording(options.recording + ": " + problem);
     setting.instruments = mission.instruments;
@@ -182,9 +181,10 @@ std::string restore(const GapWatchOptions& options, std::string_view model, gap:
 }
 
 /// Hands the stream of a daemon to a watch until the time is over or the user ends it.
-void watch_daemon(const GapWatchOptions& options, gap::Watch& watch, Clock::time_point end) {
+void watch_daemon(const GapWatchOptions& options, const std::optional<config::Settings>& settings,
+                  gap::Watch& watch, Clock::time_point end) {
   WatchStream stream(options.host, std::to_string(options.port), gap::live_request());
-  gap::LiveRecords records;
+  gap::LiveRecords records(settings);
   bool was_connected = true;
   std::uint64_t dropped = 0;
   while (!base::Interruptible::interrupted() && Clock::now() < end) {
@@ -202,35 +202,56 @@ void watch_daemon(const GapWatchOptions& options, gap::Watch& watch, Clock::time
   }
 }
 
-gap::WatchReference reference_of(const gap::ReferenceRequest& request) {
+/// Windows of the vehicle that is asked for; `settings` become those of their samples. Null: the time was over
+/// before the first fix.
+std::unique_ptr<gap::WindowSource> source_of(const GapWatchOptions& options, const gap::Library& library,
+                                             std::optional<config::Settings>& settings, Clock::time_point end) {
+  emulation::ChosenVehicle vehicle = emulation::load_chosen_vehicle(options.vehicle);
   base::Progress progress("gap watch", base::Progress::Answer::at_the_end);
-  return gap::make_reference(request, [&](double done) {
+  const auto show = [&](std::string_view what, double done) {
     if (base::Interruptible::interrupted())
       throw base::Failure(base::Exit::failed, "interrupted before the watch began");
-    progress.show("null missions", done);
-  });
+    progress.show(what, done);
+  };
+  if (auto* const layout = std::get_if<config::Layout>(&vehicle)) {
+    auto windows = std::make_unique<diagnosis::LayoutWindows>(
+        diagnosis::LayoutWatchRequest{std::move(*layout),
+                                      {options.nominals.begin(), options.nominals.end()},
+                                      settings,
+                                      given_field(options)},
+        show);
+    settings = windows->settings();
+    return windows;
+  }
+  expect_no_nominals(options.nominals);
+  auto setting = setting_of(options, std::get<config::VehicleSettings>(std::move(vehicle)), settings, end);
+  if (!setting) return nullptr;
+  return std::make_unique<gap::ReferenceWindows>(
+      gap::ReferenceRequest{std::move(setting->vehicle),
+                            library,
+                            setting->instruments,
+                            setting->field,
+                            options.cache.empty() ? usual_cache() : options.cache,
+                            {options.bank_missions, options.bank_seed, base::threads_or_cores(0)}},
+      [&](double done) { show("null missions", done); });
 }
 
 void watch_gap(const GapWatchOptions& options) {
   const base::Interruptible interruptible;
   std::signal(SIGPIPE, SIG_IGN);
   const auto end = end_after(options.seconds);
-  expect_results({options.recording, options.vehicle, options.config}, {options.state, options.metrics});
-  const auto setting = setting_of(options, end);
-  if (!setting) return;
-
+  Paths inputs{options.recording, options.vehicle, options.config};
+  inputs.insert(inputs.end(), options.nominals.begin(), options.nominals.end());
+  expect_results(inputs, {options.state, options.metrics});
+  std::optional<config::Settings> settings;
+  if (!options.config.empty()) settings = config::load(options.config);
   const gap::Library library({});
-  const gap::ReferenceRequest request{setting->vehicle,
-                                      library,
-                                      setting->instruments,
-                                      setting->field,
-                                      options.cache.empty() ? usual_cache() : options.cache,
-                                      {options.bank_missions, options.bank_seed, base::threads_or_cores(0)}};
-  const gap::WatchReference reference = reference_of(request);
+  const auto source = source_of(options, library, settings, end);
+  if (!source) return;
 
-  const std::string model = gap::watch_model(setting->vehicle, library, request.bank);
+  const std::string model = gap::watch_model(*source);
   Teller teller(options, model);
-  gap::Watch watch(setting->vehicle, library, reference, request, {options.false_alarms_per_h},
+  gap::Watch watch(*source, {options.false_alarms_per_h},
                    [&](const gap::WatchEvent& event) { teller.take(event); });
   teller.attach(watch);
   report::WatchStart start;
@@ -238,15 +259,15 @@ void watch_gap(const GapWatchOptions& options) {
   start.source = options.recording.empty() ? address_of(options) : options.recording;
   start.false_alarms_per_h = options.false_alarms_per_h;
   start.threshold_nats = watch.report().threshold_nats;
-  start.reference_missions = reference.bank.missions;
-  start.reference_windows = reference.windows;
+  start.reference_missions = source->model().recordings;
+  start.reference_windows = source->model().windows;
   start.state_refused = restore(options, model, watch);
   start.restored_windows = watch.report().windows;
   print_line(report::watch_began_json(start));
   if (options.recording.empty()) {
-    watch_daemon(options, watch, end);
+    watch_daemon(options, settings, watch, end);
   } else {
-    gap::watch_recording(options.recording, setting->settings, watch,
+    gap::watch_recording(options.recording, settings, watch,
                          [&](double) { return !base::Interruptible::interrupted(); });
   }
   teller.keep();
@@ -264,6 +285,7 @@ void add_gap_watch(CLI::App& gap) {
   add_number(command, "--port", 1, 65535, options->port);
   add_valued(command, "--vehicle", "FILE.toml", options->vehicle);
   add_valued(command, "--config", "FILE.toml", options->config);
+  add_repeatable(command, "--nominal", "FILE", options->nominals);
   add_valued(command, "--recording", "FILE", options->recording);
   add_place_and_field(command, options->where);
   add_valued(command, "--cache", "DIR", options->cache);

@@ -107,11 +107,10 @@ double log_prior_of(const Eigen::VectorXd& change, const CauseSet& set, const Ca
   return -(change(members.columns) - members.mean).cwiseQuotient(members.std).squaredNorm() / 2;
 }
 
-/// Of the departures where a recording was linearised, but for a constant and the prior of the change.
-double log_posterior(const RecordingFit& fit, const Eigen::VectorXd& at, const JointPrior& prior,
-                     const Eigen::VectorXd& change) {
+/// Log prior of departures that contain a change, but for a constant and the prior of the change.
+double log_prior_of_departures(const Eigen::VectorXd& at, const JointPrior& prior, const Eigen::VectorXd& change) {
   const Eigen::VectorXd apart = at - prior.in_each(change) - prior.mean;
-  return fit.linear.about(at).value - prior.root.triangularView<Eigen::Lower>().solve(apart).squaredNorm() / 2;
+  return -prior.root.triangularView<Eigen::Lower>().solve(apart).squaredNorm() / 2;
 }
 
 /// Posterior with a prior that has no bounds. `here`: the likelihood about the prior's mean.
@@ -183,46 +182,58 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
   const Eigen::Index own = from.size() / prior.recordings;
   Eigen::VectorXd at = from, best_at = at, change = Eigen::VectorXd::Zero(own), best_change = change;
   double most = 0;
+  // What a bound cuts off of a change, it cuts off in all recordings.
+  const auto confine = [&] {
+    const Eigen::VectorXd beyond = recording.within(at) - at;
+    Eigen::VectorXd cut_off = Eigen::VectorXd::Zero(own);
+    for (Eigen::Index i = 0; i < prior.recordings; ++i) {
+      const auto here = beyond.segment(i * own, own).array();
+      cut_off = (change.array() != 0 && here.abs() > cut_off.array().abs()).select(here, cut_off);
+    }
+    change += cut_off;
+    at = recording.within(at + prior.in_each(cut_off));
+  };
+  const auto finished = [&] {
+    if (best) {
+      const Likelihood changes = prior.of_changes(best->linear);
+      const Eigen::VectorXd farther = change_of(changes) - best_change;
+      best->is_settled = farther.dot(changes.information * farther) / 2 < kClass_nats;
+    }
+    return std::move(best);
+  };
+  double damping = 1;
+  const auto prior_here = [&] { return log_prior_of_departures(at, prior, change) + log_prior_of(change); };
+  confine();
   for (int round = 0; round < kMostSettlings; ++round) {
     auto fit = recording.fit(at);
-    if (!fit && !best) break;
-    if (fit) {
-      // What a bound cuts off, it cuts off the change. A tolerance may lie beyond it: there it is extrapolated.
-      Eigen::VectorXd cut_off = Eigen::VectorXd::Zero(own);
-      for (Eigen::Index i = 0; i < prior.recordings; ++i) {
-        const Eigen::VectorXd here = (fit->at - at).segment(i * own, own);
-        cut_off = (change.array() != 0 && here.array().abs() > cut_off.array().abs()).select(here, cut_off);
-      }
-      change += cut_off;
-      at += prior.in_each(cut_off);
-    }
-    const double value = fit ? log_posterior(*fit, at, prior, change) + log_prior_of(change)
-                             : -std::numeric_limits<double>::infinity();
-    if (best && (!fit || value < most)) {
-      if (fit && value > most - kSettledWithin_nats) break;
-      // Too far for the linearisation.
-      at = (at + best_at) / 2;
-      change = (change + best_change) / 2;
-      continue;
-    }
+    if (!fit) break;
+    const double value = fit->linear.about(at).value + prior_here();
     const bool is_there = best && value < most + kSettledWithin_nats;
     best = std::move(fit);
     most = value;
     best_at = at;
     best_change = change;
     if (is_there) break;
-    change = change_of(prior.of_changes(best->linear));
-    const Eigen::VectorXd everywhere = prior.in_each(change);
-    at = prior.posterior_mean(best->linear.about(everywhere)) + everywhere;
-    // The begin may be anywhere.
-    if (round == 0) most = -std::numeric_limits<double>::infinity();
+    // The begin may be anywhere, and how much of it is the change is not known.
+    const bool is_begin = round == 0;
+    if (is_begin) most = -std::numeric_limits<double>::infinity();
+    // A step that leads too far is damped before it is linearised, which takes longer.
+    damping = std::max(1.0, damping / kDampingStep);
+    for (bool is_better = false; !is_better; damping *= kDampingStep) {
+      if (damping > kMostDamping) return finished();
+      const double factor = best->damping() * damping;
+      const Likelihood guide = best->linear.tempered(factor);
+      JointPrior near = prior;
+      if (!is_begin) near.mean += (1 - 1 / factor) * (best_at - prior.in_each(best_change) - prior.mean);
+      change = change_of(near.of_changes(guide));
+      const Eigen::VectorXd everywhere = prior.in_each(change);
+      at = near.posterior_mean(guide.about(everywhere)) + everywhere;
+      confine();
+      const auto likelihood = recording.log_likelihood(at);
+      is_better = likelihood && *likelihood + prior_here() >= most;
+    }
   }
-  if (best) {
-    const Likelihood changes = prior.of_changes(best->linear);
-    const Eigen::VectorXd farther = change_of(changes) - best_change;
-    best->is_settled = farther.dot(changes.information * farther) / 2 < kClass_nats;
-  }
-  return best;
+  return finished();
 }
 
 CauseSearchResult search_causes(const RecordingModel& recording, const JointPrior& prior,
@@ -236,7 +247,7 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
   if (!first) first = nominal;
   result.none = nominal->linear;
   const double none = prior.of_changes(nominal->linear).evidence();
-  const SetEvidence about_first(prior.of_changes(first->linear), library);
+  const SetEvidence about_first(prior.of_changes(first->guide()), library);
   Scores scores;
   std::map<CauseSet, RecordingFit> fits;
   scores.set({}, none, true);
@@ -258,12 +269,13 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
     const auto estimated = [&](const Likelihood& changes) {
       return SetEvidence(changes, library).posterior(set).among(library.columns());
     };
-    const Eigen::VectorXd begin = prior.in_each(estimated(prior.of_changes(here->linear)));
+    const Likelihood guide = here->guide();
+    const Eigen::VectorXd begin = prior.in_each(estimated(prior.of_changes(guide)));
     const auto settled_from = [&](const Eigen::VectorXd& from) {
       return settled(recording, prior, from, estimated,
                      [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library); });
     };
-    auto there = settled_from(prior.posterior_mean(here->linear.about(begin)) + begin);
+    auto there = settled_from(prior.posterior_mean(guide.about(begin)) + begin);
     // Far from the nominal vehicle its slopes make tolerances of the gap that no vehicle survives.
     if (!there) there = settled_from(prior.mean + begin);
     if (!there) {
@@ -272,9 +284,12 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
       return;
     }
     const SetEvidence evidence(prior.of_changes(there->linear), library);
-    scores.set(set, evidence(set), true);
+    const double score = evidence(set);
+    scores.set(set, score, true);
+    const SetEvidence guided(prior.of_changes(there->guide()), library);
+    const double guided_gain = guided.gain(set);
     for (std::size_t i = 0; i < library.causes.size() && set.size() < kMostEffects; ++i) {
-      if (is_new(i, set, library)) scores.set(with(set, i), evidence(with(set, i)));
+      if (is_new(i, set, library)) scores.set(with(set, i), score + guided.gain(with(set, i)) - guided_gain);
     }
     fits.insert_or_assign(set, std::move(*there));
   };

@@ -135,14 +135,35 @@ std::vector<std::unique_ptr<RecordingModel>> those_judged(const LayoutRecordings
   return judged;
 }
 
+void leave_out(std::span<const gap::Quantity> quantities, RecordedMotion& motion) {
+  using enum gap::Quantity;
+  constexpr std::array<std::optional<gap::Quantity>, identify::kChannels> kMeasured{
+      rates, rates, rates, second_yaw_rate, force, force, force, tilt, tilt, heading, depth, depth, {}, {}, {},
+      {},    {},    {},    fixes,           fixes, fixes, fixes};
+  for (std::size_t c = 0; c < kMeasured.size(); ++c) {
+    if (std::find(quantities.begin(), quantities.end(), kMeasured[c]) != quantities.end())
+      motion.channels[c].clear();
+  }
+}
+
+}  // namespace
+
+std::vector<const RecordedMotion*> LayoutRecordings::together() const {
+  std::vector<const RecordedMotion*> all{&recording};
+  for (const RecordedMotion& other : others) all.push_back(&other);
+  return all;
+}
+
 void find_causes(LayoutStudy& study, const gap::Progress& progress) {
   const LayoutRecordings& recordings = study.recordings;
   const CauseLibrary& library = study.library;
   Diagnosis& answer = study.diagnosis;
   answer.remarks.insert(answer.remarks.end(), library.not_judged.begin(), library.not_judged.end());
   NominalBank& bank = study.bank;
-  bank = bank_of(*study.source, library, recordings.nominals, recordings.recording,
-                 [&](double done) { progress("nominal recordings", done); });
+  if (bank.recordings.empty()) {
+    bank = bank_of(*study.source, library, recordings.nominals, recordings.recording,
+                   [&](double done) { progress("nominal recordings", done); });
+  }
   answer.remarks.push_back(
       bank.powers.empty()
           ? std::string("no nominal recording was given (--nominal): there is no floor, and no cause is named")
@@ -199,25 +220,6 @@ void find_causes(LayoutStudy& study, const gap::Progress& progress) {
   write_apart(judged, parts, answer);
 }
 
-void leave_out(std::span<const gap::Quantity> quantities, RecordedMotion& motion) {
-  using enum gap::Quantity;
-  constexpr std::array<std::optional<gap::Quantity>, identify::kChannels> kMeasured{
-      rates, rates, rates, second_yaw_rate, force, force, force, tilt, tilt, heading, depth, depth, {}, {}, {},
-      {},    {},    {},    fixes,           fixes, fixes, fixes};
-  for (std::size_t c = 0; c < kMeasured.size(); ++c) {
-    if (std::find(quantities.begin(), quantities.end(), kMeasured[c]) != quantities.end())
-      motion.channels[c].clear();
-  }
-}
-
-}  // namespace
-
-std::vector<const RecordedMotion*> LayoutRecordings::together() const {
-  std::vector<const RecordedMotion*> all{&recording};
-  for (const RecordedMotion& other : others) all.push_back(&other);
-  return all;
-}
-
 std::unique_ptr<LayoutStudy> study(LayoutRequest request, LayoutRecordings recordings,
                                    const gap::Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
@@ -240,6 +242,7 @@ std::unique_ptr<LayoutStudy> study(LayoutRequest request, LayoutRecordings recor
       return {};
     } catch (const std::invalid_argument& error) {
       answer = empty;
+      study->bank = {};
       study->found.reset();
       return error.what();
     }

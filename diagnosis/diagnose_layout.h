@@ -51,6 +51,10 @@ struct LayoutStudy {
   gap::Diagnosis diagnosis;
 };
 
+/// Diagnoses the recordings of a study that has its library and source; the bank is made if it has none. Throws
+/// std::invalid_argument in words where a recording cannot be judged.
+void find_causes(LayoutStudy& study, const gap::Progress& progress);
+
 /// Diagnoses recordings (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded
 /// name that is no cause. A recording that cannot be diagnosed gets the verdict `unknown` and remarks that say
 /// why.

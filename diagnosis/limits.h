@@ -36,9 +36,14 @@ inline constexpr int kToleranceSteps = 8;
 inline constexpr double kSwitchScatter = 0.05;
 /// Leading single causes that are fitted again at their own estimate, and sets that are because they lead without.
 inline constexpr std::size_t kRefitted = 4, kReconsidered = 4;
+/// Mean square of the innovations up to which a recording is thought to be linear over the way to its explanation:
+/// nominal ones have up to 1.3.
+inline constexpr double kLinearPower = 2;
 /// A recording has settled where its evidence changes by less, and is given up after so many passes.
 inline constexpr double kSettledWithin_nats = 1;
 inline constexpr int kMostSettlings = 8;
+/// A step is damped so much more where it led to less, up to a factor.
+inline constexpr double kDampingStep = 8, kMostDamping = 1000;
 /// A figure of a recording (a channel's noise power) exceeds that of nominal recordings with this probability by
 /// chance, by the scatter of theirs (Student's t; of one of them only, by so many of its presumed standard
 /// deviations), and by tolerances that they do not show up to this factor; the power of all channels together,

@@ -40,6 +40,14 @@ Likelihood Likelihood::blurred(const Eigen::MatrixXd& root) const {
           value + of_score.squaredNorm() / 2 - log_root, norm - log_root, freedom};
 }
 
+Likelihood Likelihood::tempered(double factor) const {
+  return {information / factor, score / factor, norm + (value - norm) / factor, norm, freedom};
+}
+
+double RecordingFit::damping() const { return std::max(1.0, mean_square / kLinearPower); }
+
+Likelihood RecordingFit::guide() const { return linear.tempered(damping()); }
+
 Likelihood Likelihood::of(const std::vector<Eigen::Index>& columns) const {
   return {information(columns, columns), score(columns), value, norm, freedom};
 }
@@ -89,6 +97,12 @@ std::invalid_argument cannot_follow(const identify::RecordedMotion& recording) {
   return std::invalid_argument(recording.name + ": the layout cannot follow it: is it this vehicle's?");
 }
 
+std::optional<double> RecordingModel::log_likelihood(const Eigen::VectorXd& at) const {
+  const auto here = fit(at);
+  if (!here) return std::nullopt;
+  return here->linear.about(at).value;
+}
+
 Eigen::VectorXd values_within(const CauseLibrary& library, const Eigen::VectorXd& start,
                               const Eigen::VectorXd& at) {
   Eigen::VectorXd values = start + at;
@@ -117,20 +131,27 @@ void FittedRecording::hold_gains(const Eigen::VectorXd& at) {
   if (!held_) throw cannot_follow(filter_.recording());
 }
 
-std::optional<identify::FilterLinearised> FittedRecording::linearised(const Eigen::VectorXd& at) const {
-  if (held_) return filter_.linearise(*held_, values_at(at), columns_);
+std::optional<identify::FilterLinearised> FittedRecording::linearised(
+    const Eigen::VectorXd& at, std::span<const Eigen::Index> columns) const {
+  if (held_) return filter_.linearise(*held_, values_at(at), columns);
   const auto pass = follow(at);
   if (!pass) return std::nullopt;
-  return filter_.linearise(*pass, columns_);
+  return filter_.linearise(*pass, columns);
+}
+
+std::optional<double> FittedRecording::log_likelihood(const Eigen::VectorXd& at) const {
+  const auto here = linearised(at, {});
+  if (!here) return std::nullopt;
+  return -(here->power + here->log_det) / 2;
 }
 
 std::optional<RecordingFit> FittedRecording::fit(const Eigen::VectorXd& at) const {
   const auto here = linearised(at);
   if (!here) return std::nullopt;
-  const Eigen::VectorXd inside = values_at(at) - filter_.start();
+  const Eigen::VectorXd inside = within(at);
   const Likelihood linear{here->information(), here->score(), -(here->power + here->log_det) / 2,
                           -here->log_det / 2};
-  return RecordingFit{linear.about(-inside), inside};
+  return RecordingFit{linear.about(-inside), inside, here->power / static_cast<double>(here->count())};
 }
 
 std::optional<RecordingPower> FittedRecording::power(const Eigen::VectorXd& at) const {
@@ -163,16 +184,36 @@ Eigen::VectorXd JoinedRecordings::of_part(const Eigen::VectorXd& at, std::size_t
   return at.segment(own * static_cast<Eigen::Index>(part), own);
 }
 
+Eigen::VectorXd JoinedRecordings::within(const Eigen::VectorXd& at) const {
+  Eigen::VectorXd inside(at.size());
+  const Eigen::Index own = at.size() / std::ssize(parts_);
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    inside.segment(own * static_cast<Eigen::Index>(i), own) = parts_[i]->within(of_part(at, i));
+  return inside;
+}
+
 std::optional<RecordingFit> JoinedRecordings::fit(const Eigen::VectorXd& at) const {
   std::vector<Likelihood> linear;
   Eigen::VectorXd inside(at.size());
+  double mean_square = 0;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     auto one = parts_[i]->fit(of_part(at, i));
     if (!one) return std::nullopt;
     inside.segment(one->at.size() * static_cast<Eigen::Index>(i), one->at.size()) = one->at;
     linear.push_back(std::move(one->linear));
+    mean_square = std::max(mean_square, one->mean_square);
   }
-  return RecordingFit{side_by_side(linear), std::move(inside)};
+  return RecordingFit{side_by_side(linear), std::move(inside), mean_square};
+}
+
+std::optional<double> JoinedRecordings::log_likelihood(const Eigen::VectorXd& at) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const auto one = parts_[i]->log_likelihood(of_part(at, i));
+    if (!one) return std::nullopt;
+    sum += *one;
+  }
+  return sum;
 }
 
 std::optional<RecordingPower> JoinedRecordings::power(const Eigen::VectorXd& at) const {

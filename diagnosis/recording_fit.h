@@ -35,6 +35,8 @@ struct Likelihood {
   [[nodiscard]] Likelihood about(const Eigen::VectorXd& at) const;
   /// Of the same x when a deviate root z, z ~ N(0, 1), is added to it and integrated out.
   [[nodiscard]] Likelihood blurred(const Eigen::MatrixXd& root) const;
+  /// With noise whose variance is larger by a factor.
+  [[nodiscard]] Likelihood tempered(double factor) const;
   /// Of some of the unknowns, the others zero.
   [[nodiscard]] Likelihood of(const std::vector<Eigen::Index>& columns) const;
   Likelihood& operator+=(const Likelihood& other);
@@ -68,9 +70,17 @@ using Progress = std::function<void(double)>;
 struct RecordingFit {
   /// Of departures from the nominal vehicle, CauseLibrary::columns() for each recording.
   Likelihood linear;
-  Eigen::VectorXd at;  ///< where it was linearised
+  Eigen::VectorXd at;      ///< where it was linearised
+  double mean_square = 1;  ///< of the white innovations there
   /// False: it was given up while its likelihood still put the causes far from `at`.
   bool is_settled = true;
+
+  /// Innovations that are far above their noise are not linear over the way to where they would be explained. With
+  /// noise that is larger by this factor, departures stay within their tolerances, and what explains most comes
+  /// first (as in Levenberg 1944 and Marquardt 1963, with the prior as their metric).
+  [[nodiscard]] double damping() const;
+  /// The likelihood that says where to go from the nominal vehicle.
+  [[nodiscard]] Likelihood guide() const;
 };
 
 /// The error of a recording that no vehicle of the layout could have made, in words that name it.
@@ -108,8 +118,12 @@ class NotCopied {
 /// A recording as evidence about the vehicle and its instruments.
 class RecordingModel : public NotCopied {
  public:
+  /// The same departures, those beyond a bound at the bound.
+  [[nodiscard]] virtual Eigen::VectorXd within(const Eigen::VectorXd& at) const { return at; }
   /// nullopt: a vehicle with these departures could not have moved so. Departures beyond a bound are at the bound.
   [[nodiscard]] virtual std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const = 0;
+  /// Log likelihood of these departures, which are within the bounds, as fit() has it there.
+  [[nodiscard]] virtual std::optional<double> log_likelihood(const Eigen::VectorXd& at) const;
   [[nodiscard]] virtual std::optional<RecordingPower> power(const Eigen::VectorXd& at) const = 0;
   /// Departures of the vehicle in this recording, about which its power counts.
   [[nodiscard]] virtual Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood& here) const = 0;
@@ -123,7 +137,9 @@ class JoinedRecordings final : public RecordingModel {
  public:
   explicit JoinedRecordings(std::span<const RecordingModel* const> parts) : parts_(parts.begin(), parts.end()) {}
 
+  [[nodiscard]] Eigen::VectorXd within(const Eigen::VectorXd& at) const override;
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
+  [[nodiscard]] std::optional<double> log_likelihood(const Eigen::VectorXd& at) const override;
   /// Over all of them.
   [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const override;
   [[nodiscard]] Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood& here) const override {
@@ -174,7 +190,11 @@ class FittedRecording final : public RecordingModel {
   /// compare: a filter that expects other errors is more or less probable for that alone, whatever caused the
   /// readings. Throws std::invalid_argument where the layout cannot follow the recording so.
   void hold_gains(const Eigen::VectorXd& at);
+  [[nodiscard]] Eigen::VectorXd within(const Eigen::VectorXd& at) const override {
+    return values_at(at) - filter_.start();
+  }
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
+  [[nodiscard]] std::optional<double> log_likelihood(const Eigen::VectorXd& at) const override;
   [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const override;
   [[nodiscard]] Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood& here) const override {
     return prior.posterior_mean(here);
@@ -183,11 +203,15 @@ class FittedRecording final : public RecordingModel {
   [[nodiscard]] std::vector<std::string> oddities() const override { return filter_.oddities(); }
   [[nodiscard]] std::optional<identify::FilterPass> follow(const Eigen::VectorXd& at) const;
   /// The derivatives by all columns. nullopt: a vehicle with these departures could not have moved so.
-  [[nodiscard]] std::optional<identify::FilterLinearised> linearised(const Eigen::VectorXd& at) const;
+  [[nodiscard]] std::optional<identify::FilterLinearised> linearised(const Eigen::VectorXd& at) const {
+    return linearised(at, columns_);
+  }
   [[nodiscard]] identify::FilteredReplay& filter() { return filter_; }
   [[nodiscard]] const identify::FilteredReplay& filter() const { return filter_; }
 
  private:
+  [[nodiscard]] std::optional<identify::FilterLinearised> linearised(const Eigen::VectorXd& at,
+                                                                     std::span<const Eigen::Index> columns) const;
   [[nodiscard]] Eigen::VectorXd values_at(const Eigen::VectorXd& at) const {
     return values_within(library_, filter_.start(), at);
   }

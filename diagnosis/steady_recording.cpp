@@ -269,7 +269,7 @@ std::optional<RecordingFit> SteadyRecording::fit(const Eigen::VectorXd& at) cons
   const Vector6 residual = white.rightCols<1>();
   const Likelihood linear{jacobian.transpose() * jacobian, -jacobian.transpose() * residual,
                           -residual.squaredNorm() / 2, 0, freedom_};
-  const Eigen::VectorXd inside = values - values_at(Eigen::VectorXd::Zero(at.size()));
+  const Eigen::VectorXd inside = within(at);
   return RecordingFit{linear.about(-inside), inside};
 }
 

@@ -48,6 +48,9 @@ class SteadyRecording final : public RecordingModel {
   [[nodiscard]] Eigen::MatrixXd usual_scatter() const;
   [[nodiscard]] const Eigen::MatrixXd& own_covariance() const { return own_covariance_; }
 
+  [[nodiscard]] Eigen::VectorXd within(const Eigen::VectorXd& at) const override {
+    return values_at(at) - values_at(Eigen::VectorXd::Zero(at.size()));
+  }
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
   /// Of the mean balance, in its standard errors; a block is the share of a stretch in it. No channel has
   /// readings: `apart` has the axes.

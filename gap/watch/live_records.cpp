@@ -76,7 +76,8 @@ std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 /// Hands samples on, and notes the first fix.
 class LiveRecords::Counting final : public pipeline::Sink {
  public:
-  Counting(LiveRecords& records, Watch* watch) : records_(records), watch_(watch) {}
+  Counting(LiveRecords& records, std::uint16_t port, Watch* watch)
+      : records_(records), port_(port), watch_(watch) {}
   void on_sample(const instruments::Sample& sample) override {
     ++records_.samples_;
     if (const auto* gps = std::get_if<instruments::GpsSample>(&sample.value); gps != nullptr && !records_.field_) {
@@ -89,20 +90,26 @@ class LiveRecords::Counting final : public pipeline::Sink {
         records_.field_ = field;
       }
     }
-    if (watch_ != nullptr) watch_->on_sample(sample);
+    if (watch_ == nullptr) return;
+    instruments::Sample of_device = sample;
+    of_device.port = port_;
+    watch_->on_sample(of_device);
   }
 
  private:
   LiveRecords& records_;
+  std::uint16_t port_;
   Watch* watch_;
 };
 
 std::string_view live_request() {
   return "?WATCH={\"enable\":true,\"json\":true,\"classes\":[\"RECORD\",\"HEALTH\"],"
-         "\"topics\":[\"/compass\",\"/imu\",\"/gps\",\"/motor\",\"/command\"]};\n";
+         "\"topics\":[\"/compass\",\"/imu\",\"/gps\",\"/motor\",\"/dvl\",\"/depth\",\"/sensor\",\"/command\"]};\n";
 }
 
-LiveRecords::LiveRecords() : pipeline_(samples_port()) {
+LiveRecords::LiveRecords(const std::optional<config::Settings>& settings) : pipeline_(samples_port()) {
+  for (std::size_t i = 0; settings && i < settings->ports.size(); ++i)
+    ports_.emplace(settings->ports[i].name, static_cast<std::uint16_t>(i));
   struct NoSink final : pipeline::Sink {
   } nobody;
   pipeline::UtcMapping identity;
@@ -145,8 +152,9 @@ void LiveRecords::take_record(std::string_view line, Watch* watch) {
     }
     return;
   }
+  const auto port = ports_.find(json.value("device", ""));
   const double time_s = json.at("time").get<double>();
-  if (!is_time(time_s)) {
+  if (!is_time(time_s) || (!ports_.empty() && port == ports_.end())) {
     ++bad_;
     return;
   }
@@ -155,7 +163,7 @@ void LiveRecords::take_record(std::string_view line, Watch* watch) {
   const std::string_view message = message_of(line);
   const std::array<std::uint8_t, 1> end{'\n'};
   const std::uint64_t before = samples_;
-  Counting sink(*this, watch);
+  Counting sink(*this, port == ports_.end() ? 0 : port->second, watch);
   pipeline_.bytes(0, newest_ns_, {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()}, sink);
   pipeline_.bytes(0, newest_ns_, end, sink);
   if (samples_ == before) ++bad_;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "config/settings.h"
@@ -25,7 +27,9 @@ void watch_recording(const std::filesystem::path& file, const std::optional<conf
 /// Times are UTC.
 class LiveRecords {
  public:
-  LiveRecords();
+  /// `settings`: samples get the number of the port there that has the name of their device; those of a device
+  /// that it lacks are counted as bad. Without it all are of port 0.
+  explicit LiveRecords(const std::optional<config::Settings>& settings = std::nullopt);
 
   /// Takes one line, without its end. Samples and orders go to `watch`, where there is one. Lines of other classes
   /// are passed over; a line that is no JSON object, or a record that cannot be read, is counted.
@@ -43,6 +47,7 @@ class LiveRecords {
   void take_record(std::string_view line, Watch* watch);
 
   pipeline::Pipeline pipeline_;
+  std::map<std::string, std::uint16_t, std::less<>> ports_;  ///< by device
   std::uint64_t samples_ = 0, bad_ = 0, dropped_ = 0;
   std::int64_t newest_ns_ = 0;
   std::optional<EarthField> field_;

@@ -18,9 +18,10 @@
 #include "gap/design/planned_run.h"
 #include "gap/inference/biases.h"
 #include "gap/nulls/bank_cache.h"
+#include "gap/nulls/number_checksum.h"
 #include "gap/nulls/simulate_feasible.h"
 #include "gap/thresholds.h"
-#include "gap/watch/window.h"
+#include "gap/verdict/where.h"
 
 namespace navcal::gap {
 namespace {
@@ -73,8 +74,8 @@ config::Mission reference_mission(const config::VehicleSettings& vehicle) {
 }
 
 /// Evidence of all windows of one mission, without effects.
-std::vector<WindowEvidence> windows_of(const WindowProblem& problem, const Mission& mission) {
-  std::vector<WindowEvidence> windows;
+std::vector<ReplayedEvidence> windows_of(const WindowProblem& problem, const Mission& mission) {
+  std::vector<ReplayedEvidence> windows;
   GyroBias bias_rad_s{};
   for (double from_s = 0; from_s + kSettling_s + kWindow_s <= mission.duration_s; from_s += kWindow_s) {
     Mission piece = piece_of(mission, from_s, from_s + kSettling_s + kWindow_s);
@@ -88,72 +89,60 @@ std::vector<WindowEvidence> windows_of(const WindowProblem& problem, const Missi
   return windows;
 }
 
-/// Power that this share of the windows stays below stands for the null: the hardest manoeuvres have more power
-/// than the mean, because tolerances act more there. Set.
-constexpr double kQuantile = 0.95;
-
-/// Powers of the evidence channels without a gap, and their standard deviation; zero scatter: not to be tested.
-/// The powers of fixes are not tested: a window has few of them, and their errors last longer than it.
-void set_statistics(const std::vector<WindowEvidence>& windows, WatchReference& reference) {
-  Eigen::VectorXd high = Eigen::VectorXd::Ones(kPowerChannels), scatter = Eigen::VectorXd::Zero(kPowerChannels);
-  std::vector<Eigen::MatrixXd> explained;
-  for (const WindowEvidence& window : windows) explained.push_back(window.explained_rms);
-  double sum = 0, count = 0;
-  for (Eigen::Index c = 0; c < kEvidenceChannels; ++c) {
-    std::vector<double> powers;
-    for (const WindowEvidence& window : windows) {
-      if (std::isfinite(window.power[c])) powers.push_back(window.power[c]);
-    }
-    constexpr std::size_t kFewest = 20;
-    if (powers.size() < kFewest) continue;
-    std::sort(powers.begin(), powers.end());
-    const auto n = static_cast<double>(powers.size());
-    const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / n;
-    double square = 0;
-    for (const double power : powers) square += (power - mean) * (power - mean);
-    high[c] = std::max(mean, powers[static_cast<std::size_t>(kQuantile * n)]);
-    scatter[c] = std::sqrt(square / n);
-    sum += mean;
-    count += 1;
-  }
-  reference.noise_factor = count > 0 ? std::max(1.0, sum / count) : 1;
-  reference.explained_rms = RegimeStatistics(explained);
-  reference.power = PowerDetector(high, scatter);
-  reference.windows = static_cast<int>(windows.size());
+std::vector<Eigen::Index> watched_columns(const Library& library) {
+  std::vector<Eigen::Index> columns = window_nuisances(library);
+  const auto watched = parameter_indices(library, watched_effects(library));
+  columns.insert(columns.end(), watched.begin(), watched.end());
+  return columns;
 }
+
+std::vector<WatchedCause> watched_causes(const Library& library) {
+  std::vector<WatchedCause> causes;
+  for (const std::size_t effect : watched_effects(library)) {
+    WatchedCause cause{
+        std::string(library[effect].name), parameter_indices(library, {effect}), {}, library[effect].vector > 1};
+    cause.typical.resize(std::ssize(cause.columns));
+    for (std::size_t i = 0; i < cause.columns.size(); ++i) {
+      cause.typical[static_cast<Eigen::Index>(i)] =
+          library.unknowns()[static_cast<std::size_t>(cause.columns[i])].typical;
+    }
+    causes.push_back(std::move(cause));
+  }
+  return causes;
+}
+
+/// Newest windows over which the residual map is averaged.
+constexpr std::size_t kMapWindows = 20;
 
 }  // namespace
 
-WatchReference make_reference(const ReferenceRequest& request, const std::function<void(double)>& progress) {
-  const config::VehicleSettings& vehicle = request.vehicle;
-  const Library& library = request.library;
-  const BankOptions& options = request.bank;
+ReferenceWindows::ReferenceWindows(ReferenceRequest request, const std::function<void(double)>& progress)
+    : request_(std::move(request)), problem_{request_.vehicle, request_.library, bank_.whitening, priors_,
+                                             watched_columns(request_.library)} {
+  const auto& [vehicle, library, instruments, field, folder, options] = request_;
   const config::Mission mission = reference_mission(vehicle);
   const PlannedPath path = planned_path(vehicle, mission, sim::EffectSet(), kLongest_s);
-  const Mission readings =
-      planned_readings(vehicle, mission, {request.instruments, request.field}, path.duration_s);
+  const Mission readings = planned_readings(vehicle, mission, {instruments, field}, path.duration_s);
   const Replay replay(readings, vehicle);
   Trajectory10Hz course;
   (void)replay.run(Model{}, &course);
-  const BankCache cache(request.cache, vehicle, library);
-  WatchReference reference;
+  const BankCache cache(folder, vehicle, library);
   if (auto kept = cache.find(replay, course, options)) {
-    reference.bank = std::move(*kept);
+    bank_ = std::move(*kept);
   } else {
     const Eigen::VectorXd at = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
-    reference.bank = make_null_bank({replay, course, vehicle}, library, at, options,
-                                    [&](double done) { progress(0.7 * done); });
-    (void)cache.keep(replay, course, reference.bank);
+    bank_ = make_null_bank({replay, course, vehicle}, library, at, options,
+                           [&](double done) { progress(0.7 * done); });
+    (void)cache.keep(replay, course, bank_);
   }
-  if (reference.bank.missions < kLeastNulls) {
+  if (bank_.missions < kLeastNulls) {
     throw std::runtime_error(
         fmt::format("only {} of {} simulated vehicles could sail the mission that windows are compared with",
-                    reference.bank.missions, options.missions));
+                    bank_.missions, options.missions));
   }
-  reference.priors = fit_spike_widths(library, reference.bank.gram, reference.bank.scores);
+  priors_ = fit_spike_widths(library, bank_.gram, bank_.scores);
 
-  const WindowProblem problem{vehicle, library, reference.bank.whitening, reference.priors,
-                              window_nuisances(library)};
+  const WindowProblem problem{vehicle, library, bank_.whitening, priors_, window_nuisances(library)};
   BankOptions of_windows = options;
   of_windows.missions = kWindowMissions;
   const auto all = simulate_feasible(
@@ -163,10 +152,75 @@ WatchReference make_reference(const ReferenceRequest& request, const std::functi
         return windows_of(problem, null_mission({replay, course, vehicle}, truth.effects, seed));
       },
       [&](double done) { progress(0.7 + 0.3 * done); });
-  std::vector<WindowEvidence> windows;
-  for (const auto& of_one : all) windows.insert(windows.end(), of_one.begin(), of_one.end());
-  set_statistics(windows, reference);
-  return reference;
+  std::vector<Eigen::VectorXd> powers;
+  std::vector<Eigen::MatrixXd> explained;
+  for (const auto& of_one : all) {
+    for (const ReplayedEvidence& window : of_one) {
+      powers.push_back(window.power);
+      explained.push_back(window.explained_rms);
+    }
+  }
+  // The powers of fixes are not tested: a window has few of them, and their errors last longer than it.
+  constexpr std::size_t kFewest = 20;
+  const NominalPower power = nominal_power(powers, kEvidenceChannels, kFewest);
+  explained_rms_ = RegimeStatistics(explained);
+  model_ = {.causes = watched_causes(library),
+            .root = priors_.spike.asDiagonal(),
+            .noise_factor = power.mean,
+            .power = power.detector,
+            .channels = {"compass.field", "compass.field", "compass.field", "compass.tilt", "compass.tilt",
+                         "imu.gyro", "imu.gyro", "imu.gyro", "imu.accel", "imu.accel", "imu.accel", "imu.depth",
+                         "gps.position", "gps.position", "gps.velocity", "gps.velocity"},
+            .settling_s = kSettling_s,
+            .recordings = bank_.missions,
+            .windows = static_cast<int>(powers.size())};
+}
+
+std::string ReferenceWindows::take(std::span<const instruments::Sample> samples,
+                                   std::span<const TimedOrder> orders, std::int64_t begin_ns) {
+  MissionGatherer gatherer;
+  for (const instruments::Sample& sample : samples) gatherer.on_sample(sample);
+  for (const auto& [time_ns, order] : orders) gatherer.on_order(order, time_ns);
+  Mission mission = gatherer.take(begin_ns, {});
+  mission.instruments = request_.instruments;
+  mission.field = request_.field;
+  mission.duration_s = kSettling_s + kWindow_s;
+  mission.take_order_times();
+  find_silences(mission);
+  window_.reset();
+  if (std::string shortcoming = mission.shortcoming(); !shortcoming.empty()) return shortcoming;
+  window_.emplace(problem_, std::move(mission), bias_rad_s_);
+  return window_->can_be_judged() ? ""
+                                  : "the instruments and the motor card have too little of the window in common";
+}
+
+WindowEvidence ReferenceWindows::evidence() {
+  ReplayedEvidence evidence = window_->evidence();
+  bias_rad_s_ = evidence.bias_rad_s;
+  explained_.push_back(std::move(evidence.explained_rms));
+  if (explained_.size() > kMapWindows) explained_.pop_front();
+  return evidence;
+}
+
+std::vector<WhereEntry> ReferenceWindows::where(std::uint64_t windows) const {
+  const auto count = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(windows, explained_.size()));
+  if (count == 0) return {};
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(explained_.back().rows(), explained_.back().cols());
+  std::for_each(explained_.end() - count, explained_.end(),
+                [&](const Eigen::MatrixXd& rms) { square += rms.cwiseAbs2(); });
+  auto map = residual_map((square / static_cast<double>(count)).cwiseSqrt(), explained_rms_);
+  if (auto clear = significant_cells(map); !clear.empty()) return clear;
+  return map;
+}
+
+std::string ReferenceWindows::identity() const {
+  const auto& [vehicle, library, instruments, field, cache, bank] = request_;
+  return fmt::format("vehicle {:08x} nulls {} {}", checksum_of(vehicle), bank.missions, bank.seed);
+}
+
+void ReferenceWindows::restore(const std::vector<double>& learnt) {
+  if (learnt.size() != bias_rad_s_.size()) WindowSource::restore(learnt);
+  std::copy(learnt.begin(), learnt.end(), bias_rad_s_.begin());
 }
 
 }  // namespace navcal::gap

@@ -7,14 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "gap/nulls/number_checksum.h"
-
 namespace navcal::gap {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 Json numbers(const Eigen::VectorXd& vector) { return std::vector<double>(vector.begin(), vector.end()); }
 
@@ -64,7 +62,7 @@ std::string state_text(const Watch::State& state, std::string_view model) {
            {"log_power", numbers(state.log_power)},
            {"begins_ns", state.begins_ns},
            {"skipped", state.skipped},
-           {"bias_rad_s", state.bias_rad_s},
+           {"of_source", state.of_source},
            {"alarm_ns", nullptr}};
   if (state.alarm_ns) all["alarm_ns"] = *state.alarm_ns;
   return all.dump();
@@ -87,10 +85,10 @@ std::optional<Watch::State> read_state(std::string_view text, std::string_view m
     state.log_power = vector(all.at("log_power"));
     state.begins_ns = all.at("begins_ns").get<std::vector<std::int64_t>>();
     state.skipped = all.at("skipped").get<std::uint64_t>();
-    state.bias_rad_s = all.at("bias_rad_s").get<GyroBias>();
+    state.of_source = all.at("of_source").get<std::vector<double>>();
     if (!all.at("alarm_ns").is_null()) state.alarm_ns = all.at("alarm_ns").get<std::int64_t>();
-    for (const double bias : state.bias_rad_s) {
-      if (!std::isfinite(bias)) return std::nullopt;
+    for (const double number : state.of_source) {
+      if (!std::isfinite(number)) return std::nullopt;
     }
     return state;
   } catch (const std::exception&) {
@@ -98,10 +96,9 @@ std::optional<Watch::State> read_state(std::string_view text, std::string_view m
   }
 }
 
-std::string watch_model(const config::VehicleSettings& vehicle, const Library& library, const BankOptions& bank) {
-  std::string model =
-      fmt::format("{} vehicle {:08x} nulls {} {}", NAVCAL_VERSION, checksum_of(vehicle), bank.missions, bank.seed);
-  for (const std::size_t effect : watched_effects(library)) model += fmt::format(" {}", library[effect].name);
+std::string watch_model(const WindowSource& source) {
+  std::string model = fmt::format("{} {}", NAVCAL_VERSION, source.identity());
+  for (const WatchedCause& cause : source.model().causes) model += ' ' + cause.name;
   return model;
 }
 

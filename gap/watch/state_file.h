@@ -16,8 +16,7 @@ namespace navcal::gap {
 /// finite.
 [[nodiscard]] std::optional<Watch::State> read_state(std::string_view text, std::string_view model);
 
-/// Text that is equal for watches whose states serve each other: program, vehicle, library and null missions.
-[[nodiscard]] std::string watch_model(const config::VehicleSettings& vehicle, const Library& library,
-                                      const BankOptions& bank);
+/// Text that is equal for watches whose states serve each other: program, what the source says of itself, causes.
+[[nodiscard]] std::string watch_model(const WindowSource& source);
 
 }  // namespace navcal::gap

@@ -11,8 +11,7 @@
 
 #include "gap/verdict/diagnosis.h"
 #include "gap/watch/change_detector.h"
-#include "gap/watch/reference.h"
-#include "gap/watch/window.h"
+#include "gap/watch/window_source.h"
 #include "pipeline/pipeline.h"
 
 namespace navcal::gap {
@@ -63,9 +62,8 @@ class Watch final : public pipeline::Sink {
     double false_alarms_per_h = 0.001;  ///< at most, on average
   };
   using Listener = std::function<void(const WatchEvent&)>;
-  /// `vehicle`, `library` and `reference` must outlive it.
-  Watch(const config::VehicleSettings& vehicle, const Library& library, const WatchReference& reference,
-        const ReferenceRequest& request, const Options& options, Listener listener);
+  /// `source` must outlive it.
+  Watch(WindowSource& source, const Options& options, Listener listener);
 
   void on_sample(const instruments::Sample& sample) override;
   /// A command to the motor card. Times are on the scale of the samples.
@@ -82,48 +80,36 @@ class Watch final : public pipeline::Sink {
     std::vector<std::int64_t> begins_ns;  ///< of the windows judged, UTC
     std::uint64_t skipped = 0;
     std::optional<std::int64_t> alarm_ns;
-    GyroBias bias_rad_s{};
+    std::vector<double> of_source;
   };
   [[nodiscard]] State state() const;
-  /// Throws std::invalid_argument for a state of another library.
+  /// Throws std::invalid_argument for a state of another source.
   void restore(State state);
 
  private:
   void judge_window();
-  void take(Window& window, std::int64_t end_ns);
-  void look_for_cause(const Window& window);
-  void write_where(std::uint64_t onset);
+  void take(std::int64_t end_ns);
+  void look_for_cause();
+  void look_closer();
   void tell(WatchEvent::Kind kind, std::int64_t time_ns, std::string reason = {});
   [[nodiscard]] double evidence_nats() const;
 
-  const Library& library_;
-  const WatchReference& reference_;
-  devices::InstrumentModel instruments_;
-  EarthField field_;
+  WindowSource& source_;
   Listener listener_;
+  std::int64_t settling_ns_;
   ChangeDetector change_;
   PowerDetector power_;           ///< of the vehicle with its tolerances
   PowerDetector rest_of_leader_;  ///< with the leading cause in the model, since it leads
   PowerDetector rest_of_all_;     ///< with all effects in the model, since the alarm
-  WindowProblem problem_;
 
   std::deque<instruments::Sample> samples_;
-  struct TimedOrder {
-    std::int64_t time_ns;
-    Order order;
-  };
   std::deque<TimedOrder> orders_;
   std::optional<std::int64_t> begin_ns_;  ///< of the window that is being gathered
   std::int64_t newest_ns_ = 0;
   std::int64_t utc_minus_stamps_ns_ = 0;
-  GyroBias bias_rad_s_{};
   std::vector<std::int64_t> begins_ns_;
-  struct Explained {
-    std::uint64_t window;
-    Eigen::MatrixXd rms;
-  };
-  std::deque<Explained> explained_;  ///< of the newest windows
-  std::optional<std::size_t> leader_, named_;
+  std::optional<std::size_t> leader_;
+  std::string named_;  ///< the cause that was told
   bool is_unknown_ = false;
   WatchReport report_;
 };

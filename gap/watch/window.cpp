@@ -90,7 +90,7 @@ Eigen::VectorXd Window::power_of(const Eigen::VectorXd& left) const {
   return power;
 }
 
-WindowEvidence Window::evidence() {
+ReplayedEvidence Window::evidence() {
   const Library& library = problem_.library;
   Eigen::MatrixXd residual = residual_at(model(), at_);
   const Eigen::MatrixXd some = design_at(model(), at_, residual, problem_.columns);
@@ -115,7 +115,7 @@ WindowEvidence Window::evidence() {
   Eigen::MatrixXd normal = basis_.transpose() * basis_;
   normal.diagonal().array() += 1;
   factor_.compute(normal);
-  WindowEvidence window;
+  ReplayedEvidence window;
   const Eigen::VectorXd fitted = factor_.solve(basis_.transpose() * residual);
   const Eigen::VectorXd left = residual - basis_ * fitted;
   const Eigen::MatrixXd cross = basis_.transpose() * design;

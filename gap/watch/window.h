@@ -12,11 +12,11 @@
 #include "gap/inference/spike_and_slab.h"
 #include "gap/inference/whitening.h"
 #include "gap/replay/replay.h"
+#include "gap/watch/window_source.h"
 
 namespace navcal::gap {
 
-/// Length of the judged part of a window, s. The estimator settles before it.
-inline constexpr double kWindow_s = 30;
+/// In which the estimator settles, s.
 inline constexpr double kSettling_s = 20;
 /// Channels of which a window has a power: those of the evidence, then those of the fixes.
 inline constexpr Eigen::Index kPowerChannels = kEvidenceChannels + kFixChannels;
@@ -34,13 +34,8 @@ struct WindowProblem {
 /// The gyros' biases and the current of the water: what is new in each window.
 [[nodiscard]] std::vector<Eigen::Index> window_nuisances(const Library& library);
 
-/// Residuals of one window as a linear function of all unknowns. Turn-on biases and the current of the water are
-/// new in each window: they are integrated out of `gram` and `score`, so that a current which changes is no gap.
-struct WindowEvidence {
-  Eigen::MatrixXd gram;           ///< n x n, of all unknowns; rows of what was integrated out are zero
-  Eigen::VectorXd score;          ///< n
-  double measurements = 0;        ///< number of whitened residuals
-  Eigen::VectorXd power;          ///< kPowerChannels: mean square of whitened residuals; NaN: not measured
+/// Evidence by the library's unknowns.
+struct ReplayedEvidence : WindowEvidence {
   Eigen::MatrixXd explained_rms;  ///< channels x regimes (explained_rms()), biases fitted
   GyroBias bias_rad_s{};          ///< estimate, for the next window
 };
@@ -60,7 +55,7 @@ class Window {
   /// Whether instruments and motor card have enough of the window in common; if not, nothing else may be called.
   [[nodiscard]] bool can_be_judged() const;
   /// Computes the evidence. To be called once, before power_with().
-  [[nodiscard]] WindowEvidence evidence();
+  [[nodiscard]] ReplayedEvidence evidence();
   /// Power of the channels when the vehicle is replayed with these values of all unknowns. Biases are this
   /// window's own, and the current is fitted.
   [[nodiscard]] Eigen::VectorXd power_with(Eigen::VectorXd values) const;

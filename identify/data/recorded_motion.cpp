@@ -272,6 +272,13 @@ RecordedMotion thinned(RecordedMotion motion, double interval_s) {
   return motion;
 }
 
+RecordedMotion motion_of(std::span<const instruments::Sample> samples, std::int64_t begin_ns,
+                         const config::Settings& settings, const devices::InstrumentModel& instruments) {
+  MotionGatherer gatherer(settings, instruments);
+  for (const instruments::Sample& sample : samples) gatherer.on_sample(sample);
+  return gatherer.take(begin_ns);
+}
+
 RecordedMotion load_motion(const std::filesystem::path& file, const std::function<void(double)>& progress,
                            const std::optional<config::Settings>& stated, const record::TimeWindow& window) {
   const auto recording = record::Recording::open(file, window);

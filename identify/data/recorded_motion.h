@@ -3,15 +3,19 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "config/settings.h"
+#include "devices/instrument_model.h"
 #include "identify/data/channel.h"
+#include "instruments/samples.h"
 #include "record/recording.h"
 
 namespace navcal::identify {
@@ -66,6 +70,12 @@ void set_field(RecordedMotion& motion, const std::array<double, 3>& field_uT);
 
 /// The same with at most one reading of each channel in `interval_s`.
 [[nodiscard]] RecordedMotion thinned(RecordedMotion motion, double interval_s);
+
+/// Motion by samples of ports of these settings from `begin_ns` on, which is the scale of their stamps.
+/// `instruments`: without their mounting.
+[[nodiscard]] RecordedMotion motion_of(std::span<const instruments::Sample> samples, std::int64_t begin_ns,
+                                       const config::Settings& settings,
+                                       const devices::InstrumentModel& instruments);
 
 /// Reads a log or a capture through the pipeline. `stated`: the configuration to use instead of the recording's
 /// own. Rates and forces that come faster than 25 times a second are averaged over 0.04 s. Of two devices with the

@@ -16,9 +16,6 @@ namespace {
 constexpr double kLongestStep_s = 0.1, kTogether_s = 0.001;
 constexpr double kSilence_s = 10;  ///< of all instruments, behind which the filter starts anew
 constexpr double kLeftOut_s = 5;   ///< before a place where it diverges
-constexpr double kRunIn_s = 1;     ///< what the actuators did before the recording is not known
-/// Pitch of simulated vehicles that begin under way, mean square of the innovations: 1.09 behind 1 and 2 s.
-constexpr double kSettling_s = 3;
 constexpr double kEvidence_s = 1;  ///< at least, of readings behind that
 
 /// Random walks that the disturbance does not contain, per root of a second: waves and the water's own motion in
@@ -120,8 +117,7 @@ FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> par
   make_steps();
   if (readings_.empty() || readings_.back().time_s - begin_s < kSettling_s + kEvidence_s)
     throw std::invalid_argument(fmt::format("{}: {:.1f} s with readings; at least {:.0f} s are needed",
-                                            recorded.name, recorded.duration_s,
-                                            kRunIn_s + kSettling_s + kEvidence_s));
+                                            recorded.name, recorded.duration_s, kUnjudged_s + kEvidence_s));
   // At a point where everything is at work.
   std::vector<ChannelReading> one_each;
   for (std::size_t c = 0; c < kChannels; ++c) {
@@ -250,13 +246,15 @@ std::vector<double> FilteredReplay::run(const Eigen::VectorXd& values, FilterPas
       state = measured(step.time_s);
       pass.steps[k].begin = state;
       covariance = first_covariance(noises_);
+      pass.steps[k].stds = stds_of(covariance);
       starts_anew = false;
     } else {
       pass.steps[k].begin = state;
       const auto moved = model.moved_over(step.time_s - step.length_s, step.length_s);
       const FilterState end = model.after(state, moved, step.length_s, noises_.tau_s);
+      pass.steps[k].stds = stds_of(covariance);
       pass.steps[k].derivatives =
-          model.derivatives(state, stds_of(covariance), end, moved, step.length_s, noises_.tau_s);
+          model.derivatives(state, pass.steps[k].stds, end, moved, step.length_s, noises_.tau_s);
       const Transition transition(pass.steps[k].derivatives, recorded_.tilt_lag_s, step.length_s, noises_.tau_s);
       covariance = grown(covariance, transition, growth_of(noises_, step.length_s));
       state = end;

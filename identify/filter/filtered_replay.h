@@ -21,6 +21,7 @@ struct FilterPass {
   struct Step {
     double time_s = 0;            ///< its end, where its readings are
     FilterState begin;            ///< the state before it; as measured where the filter starts anew
+    FilterState stds;             ///< its standard errors, over which derivatives are taken
     StepDerivatives derivatives;  ///< of its end; of no meaning where the filter starts anew
     FilterState correction;       ///< of its end, by all its readings
   };
@@ -68,6 +69,11 @@ struct FilterLinearised {
 /// it does not know yet.
 class FilteredReplay {
  public:
+  /// Begin of a recording that is no evidence, s: what the actuators did before it is not known, and then the
+  /// filter settles. Pitch of simulated vehicles that begin under way, mean square of the innovations: 1.09 behind
+  /// 1 and 2 s of settling.
+  static constexpr double kRunIn_s = 1, kSettling_s = 3, kUnjudged_s = kRunIn_s + kSettling_s;
+
   /// `recorded` must outlive it. Throws std::invalid_argument in words when commands or readings are missing.
   FilteredReplay(config::Layout layout, std::vector<Parameter> parameters, const RecordedMotion& recorded,
                  const FilterNoises& noises, unsigned threads = 2);
@@ -156,8 +162,11 @@ class FilteredReplay {
     const FilterModel& model;
     Course course;
     std::vector<FilterModel::Acceleration> accelerations;
-    std::vector<Transition> transitions;  ///< of the pass; of no meaning where the filter starts anew
+    std::vector<Transition> transitions;     ///< of the steps; of no meaning where the filter starts anew
+    std::vector<FilterState> sensitivities;  ///< of the readings' predictions
   };
+  /// Derivatives of a course that is not that of the pass: held ones are those of other forces.
+  [[nodiscard]] std::vector<StepDerivatives> take_derivatives(About& about) const;
   /// Derivative of the white innovations: what `moved` changes, which `shown_in` see at once, over `by`.
   [[nodiscard]] Eigen::VectorXd slope(const About& about, const FilterModel& moved, const Channels& shown_in,
                                       double by) const;

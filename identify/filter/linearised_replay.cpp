@@ -61,27 +61,51 @@ Eigen::VectorXd FilteredReplay::slope(const About& about, const FilterModel& mov
           return shown_in[static_cast<std::size_t>(reading.channel)];
         }))
       moved.innovations(course.ends[k], step.time_s, readings, innovations.data() + step.first);
+    FilterState correction = FilterState::Zero();
     for (std::size_t i = step.first; i < step.first + step.count; ++i) {
       const FilterPass::Reading& held = about.pass.readings[i];
-      const double innovation = (innovations[i] - course.innovations[i]) / by - held.sensitivity.dot(apart);
+      const double innovation = (innovations[i] - course.innovations[i]) / by - about.sensitivities[i].dot(apart) -
+                                held.sensitivity.dot(correction);
       if (!held.is_settling) white[static_cast<Eigen::Index>(i)] = innovation / std::sqrt(held.variance);
-      apart += held.gain * innovation;
+      correction += held.gain * innovation;
     }
+    apart += correction;
   }
   return white;
+}
+
+std::vector<StepDerivatives> FilteredReplay::take_derivatives(About& about) const {
+  std::vector<StepDerivatives> derivatives(steps_.size());
+  base::in_parallel(threads_, steps_.size(), [&](std::size_t k) {
+    const Step& step = steps_[k];
+    const FilterState &stds = about.pass.steps[k].stds, &end = about.course.ends[k];
+    if (!step.starts_anew) {
+      const auto moved = about.model.moved_over(step.time_s - step.length_s, step.length_s);
+      derivatives[k] =
+          about.model.derivatives(about.course.begins[k], stds, end, moved, step.length_s, noises_.tau_s);
+    }
+    about.model.sensitivities(end, stds, step.time_s, readings_of(step),
+                              std::span(about.sensitivities).subspan(step.first, step.count));
+  });
+  return derivatives;
 }
 
 std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass, const Eigen::VectorXd& at_values,
                                                           std::span<const Eigen::Index> columns) const {
   const Driven nominal = driven_by(at_values);
   const FilterModel model = model_of(nominal, at_values);
-  About about{pass, model, replayed(pass, model), {}, {}};
+  About about{pass, model, replayed(pass, model), {}, {}, {}};
   if (about.course.white.size() == 0) return std::nullopt;
+  const auto log_det = pass.log_det();
+  if (columns.empty()) return FilterLinearised{{}, about.course.white, about.course.white.squaredNorm(), log_det};
   about.accelerations = accelerations(about.course, model);
+  for (const FilterPass::Reading& reading : pass.readings) about.sensitivities.push_back(reading.sensitivity);
+  std::vector<StepDerivatives> own;
+  if (at_values != pass.values) own = take_derivatives(about);
   for (std::size_t k = 0; k < steps_.size(); ++k)
-    about.transitions.emplace_back(pass.steps[k].derivatives, recorded_.tilt_lag_s, steps_[k].length_s,
-                                   noises_.tau_s);
-  FilterLinearised out{{}, about.course.white, about.course.white.squaredNorm(), pass.log_det()};
+    about.transitions.emplace_back(own.empty() ? pass.steps[k].derivatives : own[k], recorded_.tilt_lag_s,
+                                   steps_[k].length_s, noises_.tau_s);
+  FilterLinearised out{{}, about.course.white, about.course.white.squaredNorm(), log_det};
   out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
   const auto parameters = std::ssize(parameters_);
   const Calibration stds = nuisance_stds(recorded_);

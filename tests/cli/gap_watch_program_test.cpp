@@ -45,6 +45,38 @@ TEST_F(GapWatchProgram, RaisesTheAlarmAfterAChangeAndNotBefore) {
   for (const auto& event : events()) EXPECT_NE(event.at("event"), "alarm");
 }
 
+TEST_F(GapWatchProgram, WatchesALayoutWithNominalRecordings) {
+  const std::string vehicle =
+      std::string(" --vehicle ") + NAVCAL_SOURCE_DIR "/share/vehicles/bluerov2-heavy.toml ";
+  for (const std::string number : {"1", "2"})
+    ASSERT_EQ(run_navcal("simulate" + vehicle + "--mission calibration_swing --seconds 80 --seed " + number +
+                         " -o n" + number + ".cap"),
+              0)
+        << said("err");
+  std::ofstream(folder_ / "late.toml") << "[thrust_scale]\nof = \"thruster.2\"\nscale = -0.3\nfrom_s = 66\n";
+  ASSERT_EQ(
+      run_navcal("simulate" + vehicle + "--mission survey --seconds 130 --effects late.toml --seed 3 -o a.cap"), 0)
+      << said("err");
+  const std::string watch =
+      "gap watch" + vehicle + "--nominal n1.cap --nominal n2.cap --recording a.cap --state s.json";
+  ASSERT_EQ(run_navcal(watch), 0) << said("err");
+  const auto all = events();
+  EXPECT_EQ(all.front().at("event"), "began");
+  EXPECT_EQ(all.front().at("reference").at("missions"), 2);
+  const auto& last = all.back();
+  EXPECT_EQ(last.at("windows"), 4);
+  EXPECT_NEAR(last.at("alarm").get<double>(), 1767225600.0 + 94, 1);
+  EXPECT_EQ(last.at("effects").at(0).at("name"), "thrust_scale of thruster.2");
+  EXPECT_EQ(last.at("where").at(0).at("regime"), "newest window");
+
+  ASSERT_EQ(run_navcal(watch), 0) << said("err");
+  EXPECT_EQ(events().front().at("restored_windows"), 4);
+  EXPECT_EQ(run_navcal("gap watch" + vehicle + "--recording a.cap"), 2);
+  EXPECT_NE(said("err").find("--nominal"), std::string::npos) << said("err");
+  EXPECT_EQ(run_navcal("gap watch --nominal n1.cap --recording a.cap"), 2)
+      << "the reference vehicle has simulated ones";
+}
+
 TEST_F(GapWatchProgram, SaysWhatIsWrong) {
   std::ofstream(folder_ / "x.cap") << "nothing\n";
   std::ofstream(folder_ / "v.toml") << "[hull]\nmas_kg = 3\n";

@@ -20,6 +20,17 @@ TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   EXPECT_LT(answer.gap.pooled.after, answer.gap.pooled.before);
 }
 
+// So large a gap was "no gap": the nominal vehicle's tolerances took it up, hundreds of their errors from zero.
+TEST(DiagnoseLayout, AThrusterAtFourTenthsIsNamed) {
+  const auto of = micro();
+  const gap::Diagnosis answer = diagnosis_of(of, changed(of.prior, "thrust_scale", "thruster.1", {-0.6}));
+  ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
+  ASSERT_EQ(answer.effects.size(), 1U) << answer.sentence;
+  EXPECT_EQ(answer.effects[0].words(), "thrust_scale of thruster.1");
+  const auto& estimate = answer.effects[0].parameters.at(0);
+  EXPECT_NEAR(estimate.value, -0.6, 4 * estimate.std_error);
+}
+
 TEST(DiagnoseLayout, ALateCompassIsNamed) {
   const auto of = micro();
   const auto late = [&](std::uint64_t seed) {

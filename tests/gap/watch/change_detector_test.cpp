@@ -8,7 +8,8 @@
 #include <random>
 #include <string>
 
-#include "gap/watch/window.h"
+#include "gap/inference/effect_subset.h"
+#include "gap/inference/spike_and_slab.h"
 #include "tests/gap/prepared_mission.h"
 
 namespace navcal::gap {
@@ -53,8 +54,15 @@ class Windows {
   std::mt19937_64 dice_{7};
 };
 
+/// Each effect of the library, at its place in it.
 ChangeDetector detector_of(const Library& library, const Windows& windows) {
-  return {library, windows.priors(), watched_effects(library), 1};
+  std::vector<WatchedCause> causes;
+  for (std::size_t effect = 0; effect < library.size(); ++effect) {
+    WatchedCause cause{std::string(library[effect].name), parameter_indices(library, {effect}), {}};
+    cause.typical = windows.priors().slab(cause.columns);
+    causes.push_back(std::move(cause));
+  }
+  return {std::move(causes), windows.priors().spike.asDiagonal(), 1};
 }
 
 TEST(ChangeDetector, StaysBelowTheNumberOfWindowsWhenNothingChanges) {
@@ -81,7 +89,7 @@ TEST(ChangeDetector, NamesAnEffectThatBeginsLate) {
   for (int i = 0; i < 4; ++i) detector.take(windows.gram(), windows.score(values), kMeasurements);
   EXPECT_GT(detector.log_statistic(), 100);
   const ChangeDetector::Cause first = detector.causes().front();
-  EXPECT_EQ(library[first.effect].name, "hard_iron");
+  EXPECT_EQ(detector.name(first), "hard_iron");
   EXPECT_GT(first.probability, 0.99);
   EXPECT_EQ(first.onset, 20U);
   EXPECT_NEAR(detector.strength(first), 1, 0.2);
@@ -133,6 +141,46 @@ TEST(ChangeDetector, RefusesAStateOfAnotherSize) {
   ChangeDetector::State state = detector.state();
   state.score.conservativeResize(state.score.size() - 1);
   EXPECT_THROW(detector.restore(state), std::invalid_argument);
+}
+
+TEST(ChangeDetector, UnknownsThatDependOnEachOtherHideNoOtherChange) {
+  // Only the sum of the first two is known; a change of the third is not in it.
+  Eigen::MatrixXd covariance = Eigen::Vector3d(1, 1, 1e-4).asDiagonal();
+  covariance(0, 1) = covariance(1, 0) = -0.999;
+  const auto cause = [](std::string name, Eigen::Index column) {
+    return WatchedCause{std::move(name), {column}, Eigen::VectorXd::Ones(1)};
+  };
+  ChangeDetector detector({cause("sum", 0), cause("third", 2)}, Eigen::MatrixXd(covariance.llt().matrixL()), 1);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(3, 3);
+  gram << 400, 400, 0, 400, 400, 0, 0, 0, 400;
+  for (int i = 0; i < 6; ++i) detector.take(gram, gram * Eigen::Vector3d(0.8, -0.8, i < 3 ? 0 : 1), kMeasurements);
+  EXPECT_EQ(detector.name(detector.causes().front()), "third");
+  EXPECT_EQ(detector.causes().front().onset, 3U);
+  EXPECT_NEAR(detector.strength(detector.causes().front()), 1, 0.1);
+  EXPECT_GT(detector.log_statistic(), 20);
+}
+
+TEST(ChangeDetector, ACauseThatWouldBeStrongerThanItCanIsNone) {
+  WatchedCause weak{"weak", {0}, Eigen::VectorXd::Ones(1)};
+  weak.most = 2;
+  for (const double size : {1.5, 2.5}) {
+    ChangeDetector detector({weak}, Eigen::MatrixXd::Constant(1, 1, 0.01), 1);
+    const Eigen::MatrixXd gram = Eigen::MatrixXd::Constant(1, 1, 400);
+    detector.take(gram, Eigen::VectorXd::Zero(1), kMeasurements);
+    detector.take(gram, Eigen::VectorXd::Constant(1, 400 * size), kMeasurements);
+    EXPECT_EQ(detector.log_statistic() > 20, size < weak.most);
+  }
+}
+
+TEST(NominalPower, OnlyChannelsOfEnoughWindowsAreTested) {
+  std::vector<Eigen::VectorXd> windows;
+  for (int i = 0; i < 6; ++i) windows.emplace_back(Eigen::Vector3d(1 + 0.1 * i, i < 3 ? 1 : std::nan(""), 1));
+  NominalPower power = nominal_power(windows, 2, 4, 0.1);
+  EXPECT_NEAR(power.mean, 1.25, 1e-12);
+  for (int i = 0; i < 5; ++i) power.detector.take(Eigen::Vector3d(1, 9, 9));
+  EXPECT_LT(power.detector.log_statistic(), 0) << "the second has three windows, the third is not to be tested";
+  power.detector.take(Eigen::Vector3d(9, 1, 1));
+  EXPECT_GT(power.detector.log_statistic(), 5);
 }
 
 TEST(PowerDetector, RisesWithPowerAndNotBelowTheRiseThatItIsMadeFor) {

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "base/angles.h"
+#include "config/load.h"
+#include "config/settings.h"
 
 namespace navcal::gap {
 namespace {
@@ -56,6 +58,20 @@ TEST(LiveRecords, CountsLinesThatCannotBeRead) {
   EXPECT_EQ(records.samples(), 0U);
   records.take(kImu, nullptr);
   EXPECT_EQ(records.samples(), 1U);
+}
+
+TEST(LiveRecords, GivesSamplesThePortOfTheirDeviceAndCountsThoseOfNone) {
+  config::Settings settings;
+  for (const std::string name : {"gps", "imu"})
+    settings.ports.push_back(config::default_port(name, protocols::Protocol::samples, 115200));
+  LiveRecords records(settings);
+  records.take(kImu, nullptr);
+  EXPECT_EQ(records.samples(), 1U);
+  std::string other(kImu);
+  other.replace(other.find(R"("device":"imu")"), 14, R"("device":"xxx")");
+  records.take(other, nullptr);
+  EXPECT_EQ(records.samples(), 1U);
+  EXPECT_EQ(records.bad(), 1U);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ Watch::State some_state() {
   state.begins_ns = {1, 30'000'000'001};
   state.skipped = 4;
   state.alarm_ns = 60'000'000'000;
-  state.bias_rad_s = {0.1, 0.2, 0.3, 0.4};
+  state.of_source = {0.1, 0.2, 0.3, 0.4};
   return state;
 }
 
@@ -38,7 +38,7 @@ TEST(StateFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(after->log_power, before.log_power);
   EXPECT_EQ(after->begins_ns, before.begins_ns);
   EXPECT_EQ(after->alarm_ns, before.alarm_ns);
-  EXPECT_EQ(after->bias_rad_s, before.bias_rad_s);
+  EXPECT_EQ(after->of_source, before.of_source);
 }
 
 TEST(StateFile, RefusesAnotherModelAndGarbage) {
