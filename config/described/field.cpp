@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/line_reader.h"
@@ -11,6 +10,7 @@
 #include "config/described/description_file.h"
 #include "config/described/parts.h"
 #include "config/suggestion.h"
+#include "protocols/decimal.h"
 
 namespace navcal::config {
 namespace {
@@ -231,12 +231,11 @@ std::optional<std::string> adjust(protocols::described::Description& description
     std::string_view part = take_until(adjustment, ',');
     const std::string_view key = take_until(part, '=');
     part = base::trimmed(part);
-    double number = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (error != std::errc{} || end != part.data() + part.size() || !(std::abs(number) <= kLargest))
+    const auto number = protocols::real(part);
+    if (!number || !(std::abs(*number) <= kLargest))
       return fmt::format("{} is no number", to_toml_text(std::string(part)));
     for (Field* field : fields) {
-      if (auto wrong = set_constant(*field, key, number)) return wrong;
+      if (auto wrong = set_constant(*field, key, *number)) return wrong;
     }
   }
   return std::nullopt;

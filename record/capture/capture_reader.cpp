@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "config/described/outputs_port.h"
 #include "config/load.h"
 #include "config/text_rules.h"
+#include "protocols/decimal.h"
 #include "protocols/device_types.h"
 #include "record/json/mapping_json.h"
 
@@ -140,11 +140,8 @@ void CaptureReader::parse_port(std::string_view line) {
   if (!config::is_port_name(port_name)) fail("a port's name is 1 to 31 of a-z, 0-9, _ and -");
   const auto protocol = protocols::protocol_named(protocol_name);
   if (!protocol) fail("protocol must be one of " + protocol_names());
-  int baud = 0;
-  const auto [end, error] = std::from_chars(baud_text.data(), baud_text.data() + baud_text.size(), baud);
-  if (error != std::errc{} || end != baud_text.data() + baud_text.size() || baud < 1 || baud > 4'000'000) {
-    fail("speed must be a number of 1 to 4000000 baud");
-  }
+  const int baud = protocols::integer<int>(baud_text).value_or(0);
+  if (baud < 1 || baud > 4'000'000) fail("speed must be a number of 1 to 4000000 baud");
   if (!rest.empty()) fail("more behind the speed of a port line");
   for (const auto& port : ports_) {
     if (port.name == port_name) fail("the port is named a second time");
