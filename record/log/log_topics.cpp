@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/enum_name.h"
+#include "base/line_reader.h"
 #include "base/text_rows.h"
 #include "instruments/sample_fields.h"
 
@@ -44,10 +45,7 @@ std::vector<std::array<std::string_view, 6>> rows_of(std::string_view topic) {
   std::vector<std::array<std::string_view, 6>> rows;
   for (auto [of, rest] : base::text_rows(topic_rows(), "|")) {
     if (of != topic) continue;
-    for (std::string_view& word : rows.emplace_back()) {
-      word = rest.substr(0, rest.find('|'));
-      rest.remove_prefix(std::min(rest.size(), word.size() + 1));
-    }
+    for (std::string_view& word : rows.emplace_back()) word = base::take_until(rest, "|");
   }
   return rows;
 }
