@@ -55,7 +55,9 @@ Field field_of(const instruments::kind::Field<Owner, T>& field) {
   const bool is_degrees = field.quantity.form == instruments::Form::degrees;
   Field made{field.key, kKindOf<T>, is_degrees ? "deg" : "", field.quantity.units};
   for (const auto& [name, kind, unit, units, standard_name, long_name] : rows_of("members")) {
-    if (name == field.key) made.standard_name = standard_name, made.long_name = long_name;
+    if (name != field.key) continue;
+    made.standard_name = standard_name;
+    made.long_name = long_name;
   }
   return made;
 }
