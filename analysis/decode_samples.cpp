@@ -27,11 +27,7 @@ bool is_ascii(std::string_view text) {
 
 void write_list(FieldWriter& fields, std::string_view key, std::string_view inside) {
   fields.begin_list(key);
-  while (!inside.empty()) {
-    const std::size_t comma = std::min(inside.find(','), inside.size());
-    fields.written({}, base::trimmed(inside.substr(0, comma)));
-    inside.remove_prefix(std::min(comma + 1, inside.size()));
-  }
+  while (!inside.empty()) fields.written({}, base::trimmed(base::take_until(inside, ",")));
   fields.end_list();
 }
 

@@ -49,8 +49,8 @@ template <class Number>
 Number most_frequent(const std::vector<Number>& numbers, double& share) {
   std::map<Number, std::size_t> counts;
   for (const Number number : numbers) ++counts[number];
-  const auto most = std::max_element(counts.begin(), counts.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most =
+      std::ranges::max_element(counts, [](const auto& a, const auto& b) { return a.second < b.second; });
   share = most == counts.end() ? 0 : static_cast<double>(most->second) / static_cast<double>(numbers.size());
   return most == counts.end() ? Number{} : most->first;
 }
@@ -100,7 +100,7 @@ void lengthen_sync(Framing& framing) {
     const auto differs = [&](Bytes frame) {
       return frame.size() <= at || frame[at] != framing.frames.front()[at];
     };
-    if (is_length || std::any_of(framing.frames.begin(), framing.frames.end(), differs)) return;
+    if (is_length || std::ranges::any_of(framing.frames, differs)) return;
     // A zero that never changes is rather the upper half of a small number.
     if (framing.frames.front()[at] == 0) return;
     framing.sync += static_cast<char>(framing.frames.front()[at]);
@@ -170,8 +170,7 @@ std::vector<Framing> find_framings(Bytes capture) {
   const auto rank = [](const Framing& framing) {
     return framing.coverage * (is_likely_sync(framing.sync) ? 1 : kUnlikely);
   };
-  std::stable_sort(framings.begin(), framings.end(),
-                   [&](const Framing& a, const Framing& b) { return rank(a) > rank(b); });
+  std::ranges::stable_sort(framings, [&](const Framing& a, const Framing& b) { return rank(a) > rank(b); });
   return framings;
 }
 

@@ -13,6 +13,15 @@ namespace navcal::base {
   return text.substr(0, text.find_last_not_of(ends) + 1);
 }
 
+/// Takes what stands before the first of these separators off the front of `text`, and that separator.
+constexpr std::string_view take_until(std::string_view& text, std::string_view separators) {
+  const bool is_one = separators.size() == 1;
+  const std::string_view front =
+      text.substr(0, is_one ? text.find(separators.front()) : text.find_first_of(separators));
+  text.remove_prefix(front.size() < text.size() ? front.size() + 1 : text.size());
+  return front;
+}
+
 /// Cuts a stream of text into lines without ever holding more than `max_length` of it. A line longer than that
 /// makes the reader refuse everything from then on.
 class LineReader {

@@ -12,6 +12,7 @@
 #include "config/complaints.h"
 #include "config/described/table_reader.h"
 #include "config/document.h"
+#include "protocols/decimal.h"
 #include "protocols/utc.h"
 
 namespace navcal::config {
@@ -205,14 +206,8 @@ void read_time(TableReader& table, CsvMap& map) {
   table.finish();
 }
 
-std::optional<int> digits(std::string_view text, std::size_t first, std::size_t count) {
-  if (text.size() < first + count) return std::nullopt;
-  int value = 0;
-  for (const char c : text.substr(first, count)) {
-    if (c < '0' || c > '9') return std::nullopt;
-    value = value * 10 + (c - '0');
-  }
-  return value;
+std::optional<std::uint8_t> two_digits(std::string_view text, std::size_t first) {
+  return text.size() < first + 2 ? std::nullopt : protocols::integer<std::uint8_t>(text.substr(first, 2));
 }
 
 /// Nanoseconds of ".25" at the front of `text`, which it takes away.
@@ -231,7 +226,7 @@ std::uint32_t take_fraction(std::string_view& text) {
 
 std::optional<std::int64_t> zone_ns(std::string_view text) {
   if (text.empty() || text == "Z") return 0;
-  const auto hours = digits(text, 1, 2), minutes = digits(text, text.size() == 6 ? 4 : 3, 2);
+  const auto hours = two_digits(text, 1), minutes = two_digits(text, text.size() == 6 ? 4 : 3);
   const bool has_sign = text.front() == '+' || text.front() == '-';
   const bool fits = (text.size() == 6 && text[3] == ':') || text.size() == 5;
   if (!has_sign || !fits || !hours || !minutes) return std::nullopt;
@@ -260,11 +255,10 @@ std::optional<std::int64_t> parse_iso_time(std::string_view text) {
   constexpr std::size_t kSeconds_end = 19;
   const auto date = text.size() < kSeconds_end ? std::nullopt : protocols::parse_iso_date(text.substr(0, 10));
   if (!date || (text[10] != 'T' && text[10] != ' ') || text[13] != ':' || text[16] != ':') return std::nullopt;
-  const auto hour = digits(text, 11, 2), minute = digits(text, 14, 2), second = digits(text, 17, 2);
+  const auto hour = two_digits(text, 11), minute = two_digits(text, 14), second = two_digits(text, 17);
   if (!hour || !minute || !second) return std::nullopt;
   std::string_view rest = text.substr(kSeconds_end);
-  const protocols::TimeOfDay time{static_cast<std::uint8_t>(*hour), static_cast<std::uint8_t>(*minute),
-                                  static_cast<std::uint8_t>(*second), take_fraction(rest)};
+  const protocols::TimeOfDay time{*hour, *minute, *second, take_fraction(rest)};
   const auto zone = zone_ns(rest);
   if (!is_valid(time) || !zone) return std::nullopt;
   return unix_ns(*date, time) - *zone;

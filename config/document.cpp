@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/line_reader.h"
+
 namespace navcal::config {
 namespace {
 
@@ -71,10 +73,8 @@ std::optional<Problem> beyond_bounds(std::string_view toml) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (toml.starts_with(kByteOrderMark)) toml.remove_prefix(kByteOrderMark.size());
   for (unsigned number = 1; !toml.empty(); ++number) {
-    const std::size_t end = std::min(toml.find('\n'), toml.size());
-    auto complaint = complaint_about(toml.substr(0, end));
+    auto complaint = complaint_about(base::take_until(toml, "\n"));
     if (!complaint.empty()) return Problem{number, "", std::move(complaint)};
-    toml.remove_prefix(std::min(end + 1, toml.size()));
   }
   return std::nullopt;
 }

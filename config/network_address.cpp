@@ -2,10 +2,10 @@
 #include "config/network_address.h"
 
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "config/text_rules.h"
+#include "protocols/decimal.h"
 
 namespace navcal::config {
 namespace {
@@ -28,10 +28,9 @@ std::optional<SocketAddress> socket_address(std::string_view text) {
   } else if (address.find(':') != std::string_view::npos) {
     return std::nullopt;
   }
-  SocketAddress found{std::string(address), 0};
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), found.port);
-  if (error != std::errc() || end != port.data() + port.size() || !is_ip_address(address)) return std::nullopt;
-  return found;
+  const auto number = protocols::integer<std::uint16_t>(port);
+  if (!number || !is_ip_address(address)) return std::nullopt;
+  return SocketAddress{std::string(address), *number};
 }
 
 std::optional<NetworkAddress> parse_network_address(std::string_view text) {

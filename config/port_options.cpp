@@ -26,10 +26,11 @@ std::vector<protocols::Protocol> devices_with(bool protocols::OptionTables::*tab
   return devices;
 }
 
-std::vector<protocols::Protocol> devices_that(bool (*delivers)(const protocols::Delivery&)) {
+/// The devices that deliver one of these.
+std::vector<protocols::Protocol> devices_of(protocols::RoleSet roles) {
   std::vector<protocols::Protocol> devices;
   for (const auto& device : protocols::kDeviceTypes) {
-    if (delivers(device.delivers)) devices.push_back(device.protocol);
+    if (device.delivers.has_any(roles)) devices.push_back(device.protocol);
   }
   return devices;
 }
@@ -43,14 +44,11 @@ std::vector<Option<P>> make_port_options() {
   const auto of_oncore = table_of<P>("", std::identity(), {Protocol::oncore});
   const auto units = table_of<P>("units", &P::compass, devices_with(&protocols::OptionTables::units));
   const auto channels = table_of<P>("channels", &P::imu_card, devices_with(&protocols::OptionTables::channels));
-  const auto turned =
-      table_of<P>("mounting", &P::mounting, devices_that([](const protocols::Delivery& delivers) {
-                    return delivers.heading || delivers.field || delivers.rates || delivers.bottom_velocity;
-                  }));
-  const auto placed = table_of<P>("mounting", &P::mounting, devices_that([](const protocols::Delivery& delivers) {
-                                    return delivers.acceleration || delivers.depth || delivers.position ||
-                                           delivers.bottom_velocity;
-                                  }));
+  const auto turned = table_of<P>("mounting", &P::mounting,
+                                  devices_of({Role::heading, Role::field, Role::rates, Role::bottom_velocity}));
+  const auto placed =
+      table_of<P>("mounting", &P::mounting,
+                  devices_of({Role::acceleration, Role::depth, Role::position, Role::bottom_velocity}));
   const auto fix = table_of<P>("fix", &P::gps, devices_with(&protocols::OptionTables::fix));
   auto scale = channels.channels("scale", &ImuCardSettings::scale, kMillivoltsPer, -100000, 100000);
   scale.zero_allowed = false;

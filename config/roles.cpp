@@ -3,40 +3,36 @@
 
 #include "config/settings.h"
 #include "protocols/described/description.h"
-#include "protocols/device_types.h"
 
 namespace navcal::config {
 namespace {
 
-using protocols::Delivery;
 using protocols::described::Meaning;
 
 /// A role, and what serves it.
 struct RoleRow {
   std::string_view name;
-  bool Delivery::*delivers;
   Role leader;
   Meaning first, second, third;  ///< a description with one of them delivers it
 };
 
 const RoleRow& row_of(Role role) {
   using enum Meaning;
-  using D = Delivery;
   using R = Role;
   // In the order of the roles.
   static constexpr std::array<RoleRow, kRoles.size()> kRows{{
-      {"heading", &D::heading, R::heading, field_x, heading, heading_true},
-      {"field", &D::field, R::heading, field_x, none, none},
-      {"rates", &D::rates, R::rates, rate_x, none, none},
-      {"acceleration", &D::acceleration, R::rates, specific_force_x, none, none},
-      {"depth", &D::depth, R::rates, depth, pressure, none},
-      {"position", &D::position, R::position, latitude, none, none},
-      {"velocity", &D::velocity, R::position, speed, none, none},
-      {"shaft", &D::shaft, R::shaft, rpm, none, none},
-      {"altitude", &D::altitude, R::altitude, altitude, none, none},
-      {"bottom_velocity", &D::bottom_velocity, R::bottom_velocity, bottom_velocity_x, bottom_velocity_north, none},
-      {"water_velocity", &D::water_velocity, R::bottom_velocity, water_velocity_x, water_velocity_north, none},
-      {"heading_reference", &D::heading, R::heading_reference, field_x, heading, heading_true},
+      {"heading", R::heading, field_x, heading, heading_true},
+      {"field", R::heading, field_x, none, none},
+      {"rates", R::rates, rate_x, none, none},
+      {"acceleration", R::rates, specific_force_x, none, none},
+      {"depth", R::rates, depth, pressure, none},
+      {"position", R::position, latitude, none, none},
+      {"velocity", R::position, speed, none, none},
+      {"shaft", R::shaft, rpm, none, none},
+      {"altitude", R::altitude, altitude, none, none},
+      {"bottom_velocity", R::bottom_velocity, bottom_velocity_x, bottom_velocity_north, none},
+      {"water_velocity", R::bottom_velocity, water_velocity_x, water_velocity_north, none},
+      {"heading_reference", R::heading_reference, field_x, heading, heading_true},
   }};
   return kRows.at(static_cast<std::size_t>(role));
 }
@@ -51,8 +47,8 @@ bool can_deliver(protocols::Protocol protocol, Role role) {
   const auto& device = protocols::device_type(protocol);
   // The heading of an autopilot is an estimate by the compass that would be calibrated against it.
   if (role == Role::heading_reference && protocol == protocols::Protocol::mavlink) return false;
-  const auto delivers = row_of(role).delivers;
-  return device.delivers.*delivers || (delivers == &Delivery::heading && device.heading_if_chosen);
+  const bool is_heading = role == Role::heading || role == Role::heading_reference;
+  return device.delivers.has(is_heading ? Role::heading : role) || (is_heading && device.heading_if_chosen);
 }
 
 bool can_deliver(const PortSettings& port, Role role) {

@@ -6,25 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "protocols/frame.h"
+#include "protocols/device_types.h"
 
 namespace navcal::config {
 
-/// Quantities that navigation and calibration need. One device delivers each of them.
-enum class Role : std::uint8_t {
-  heading,
-  field,
-  rates,
-  acceleration,
-  depth,
-  position,
-  velocity,  ///< over ground, by a receiver
-  shaft,
-  altitude,
-  bottom_velocity,   ///< over the bottom, by a Doppler log
-  water_velocity,    ///< through the water, likewise
-  heading_reference  ///< true heading that the compass is calibrated against; of a port that the operator names
-};
+using protocols::Role;
+
 inline constexpr std::array kRoles{Role::heading,         Role::field,          Role::rates,
                                    Role::acceleration,    Role::depth,          Role::position,
                                    Role::velocity,        Role::shaft,          Role::altitude,

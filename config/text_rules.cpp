@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <chrono>
 #include <string>
+
+#include "protocols/utc.h"
 
 namespace navcal::config {
 namespace {
@@ -43,20 +43,8 @@ bool is_ip_address(std::string_view text) {
 }
 
 bool is_gps_date(std::string_view text) {
-  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
-  const auto number = [text](std::size_t first, std::size_t length) {
-    int value = -1;
-    const char* const end = text.data() + first + length;
-    const auto result = std::from_chars(text.data() + first, end, value);
-    return result.ptr == end ? value : -1;
-  };
-  using namespace std::chrono;
-  const int month = number(5, 2);
-  const int day = number(8, 2);
-  if (month < 1 || day < 1) return false;
-  const year_month_day date{year{number(0, 4)}, std::chrono::month{static_cast<unsigned>(month)},
-                            std::chrono::day{static_cast<unsigned>(day)}};
-  return date.ok() && sys_days{date} >= sys_days{year{1980} / January / 6};
+  const auto date = protocols::parse_iso_date(text);
+  return date && *date >= protocols::Date{1980, 1, 6};
 }
 
 bool is_port_name(std::string_view text) {

@@ -36,8 +36,8 @@ const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const inst
                                                   std::int64_t now_ns) {
   changes_.clear();
   for (const Alarm alarm : kCardAlarms) {
-    const auto found = std::find_if(standing_.begin(), standing_.end(),
-                                    [&](const Standing& s) { return s.port == port && s.alarm == alarm; });
+    const auto found =
+        std::ranges::find_if(standing_, [&](const Standing& s) { return s.port == port && s.alarm == alarm; });
     if (says(imu, alarm)) {
       if (found != standing_.end()) {
         found->last_seen_ns = now_ns;
@@ -54,8 +54,8 @@ const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const inst
 }
 
 bool Alarms::set(std::uint16_t port, Alarm alarm, bool stands, std::int64_t now_ns) {
-  const auto found = std::find_if(standing_.begin(), standing_.end(),
-                                  [&](const Standing& s) { return s.port == port && s.alarm == alarm; });
+  const auto found =
+      std::ranges::find_if(standing_, [&](const Standing& s) { return s.port == port && s.alarm == alarm; });
   if (stands == (found != standing_.end())) return false;
   if (stands) {
     raise(port, alarm, now_ns);
@@ -67,8 +67,7 @@ bool Alarms::set(std::uint16_t port, Alarm alarm, bool stands, std::int64_t now_
 
 void Alarms::raise(std::uint16_t port, Alarm alarm, std::int64_t now_ns) {
   standing_.push_back({port, alarm, now_ns, now_ns});
-  std::stable_sort(standing_.begin(), standing_.end(),
-                   [](const Standing& a, const Standing& b) { return a.alarm < b.alarm; });
+  std::ranges::stable_sort(standing_, [](const Standing& a, const Standing& b) { return a.alarm < b.alarm; });
 }
 
 }  // namespace navcal::daemon

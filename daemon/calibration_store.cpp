@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "base/line_reader.h"
 #include "pipeline/sources.h"
 #include "record/log/checked_file.h"
 
@@ -18,10 +19,8 @@ constexpr std::string_view kSeparator = "\n--\n";
 /// The first line that differs.
 std::string difference(std::string_view before, std::string_view now) {
   while (!before.empty() && !now.empty()) {
-    const auto a = before.substr(0, before.find('\n')), b = now.substr(0, now.find('\n'));
+    const auto a = base::take_until(before, "\n"), b = base::take_until(now, "\n");
     if (a != b) return fmt::format("it was \"{}\" and is \"{}\"", a, b);
-    before.remove_prefix(std::min(before.size(), a.size() + 1));
-    now.remove_prefix(std::min(now.size(), b.size() + 1));
   }
   return before.empty() ? "an instrument was added" : "an instrument was taken away";
 }

@@ -37,6 +37,12 @@ std::optional<std::string> text_at(const Json& object, const char* key) {
   return found->get<std::string>();
 }
 
+/// The string at `key`. False unless it has a character or more.
+bool take_text(const Json& object, const char* key, std::string& text) {
+  text = text_at(object, key).value_or("");
+  return !text.empty();
+}
+
 /// The number at `key` replaces `value`, where it is there. False when it is something else.
 bool take_number(const Json& object, const char* key, double& value) {
   const auto found = object.find(key);
@@ -49,9 +55,7 @@ bool take_number(const Json& object, const char* key, double& value) {
 /// Each of these: what is wrong with the request, for people; empty: taken.
 std::string take_lease(const Json& object, ControlRequest& request) {
   auto& lease = request.lease_request;
-  const auto holder = text_at(object, "holder");
-  if (!holder || holder->empty()) return "motor.lease needs a holder, a name";
-  lease.holder = *holder;
+  if (!take_text(object, "holder", lease.holder)) return "motor.lease needs a holder, a name";
   lease.priority = 1;
   if (const auto priority = object.find("priority"); priority != object.end()) {
     if (!priority->is_number_integer()) return "priority is a whole number";
@@ -64,10 +68,7 @@ std::string take_lease(const Json& object, ControlRequest& request) {
 }
 
 std::string take_token(const Json& object, ControlRequest& request) {
-  const auto lease = text_at(object, "lease");
-  if (!lease || lease->empty()) return "lease is what motor.lease answered";
-  request.lease = *lease;
-  return {};
+  return take_text(object, "lease", request.lease) ? "" : "lease is what motor.lease answered";
 }
 
 std::string take_order(const Json& object, ControlRequest& request) {
@@ -97,9 +98,7 @@ bool take_whole(const Json& object, const char* key, std::uint64_t low, std::uin
 }
 
 std::string take_part(const Json& object, ControlRequest& request) {
-  const auto file = text_at(object, "file");
-  if (!file || file->empty()) return "file is the name of a log";
-  request.file = *file;
+  if (!take_text(object, "file", request.file)) return "file is the name of a log";
   if (!take_whole(object, "offset", 0, INT64_MAX, request.offset)) return "offset is a number of bytes";
   const bool is_sum = request.command == ControlCommand::log_sum;
   const std::uint64_t most_bytes = is_sum ? record::kMaxSum_bytes : record::kMaxPart_bytes;
@@ -132,10 +131,7 @@ std::string take_choice(const Json& object, ControlRequest& request) {
 }
 
 std::string take_supply(const Json& object, ControlRequest& request) {
-  const auto name = text_at(object, "name");
-  if (!name || name->empty()) return "name is that of a supply; power.list has them";
-  request.name = *name;
-  return {};
+  return take_text(object, "name", request.name) ? "" : "name is that of a supply; power.list has them";
 }
 
 std::string take_device(const Json& object, ControlRequest& request) {

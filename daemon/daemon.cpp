@@ -362,9 +362,8 @@ std::vector<std::string> Daemon::health(std::int64_t now_ns) const {
 }
 
 std::string Daemon::summary() const {
-  const auto running = std::count_if(sessions_.begin(), sessions_.end(), [](const auto& session) {
-    return session->state() == PortSession::State::running;
-  });
+  const auto running = std::ranges::count_if(
+      sessions_, [](const auto& session) { return session->state() == PortSession::State::running; });
   std::string text =
       fmt::format("{} of {} ports running, {} clients", running, sessions_.size(), server_.clients());
   for (const auto& session : sessions_) {

@@ -34,8 +34,7 @@ void Daemon::react_to_leaks(const std::vector<Alarms::Change>& changes, std::int
     if (change.raised) motor_->leak(now_ns, std::string(name_of(change.alarm)));
   }
   const auto& standing = alarms_.standing();
-  const bool stands =
-      std::any_of(standing.begin(), standing.end(), [&](const auto& alarm) { return is_leak(alarm.alarm); });
+  const bool stands = std::ranges::any_of(standing, [&](const auto& alarm) { return is_leak(alarm.alarm); });
   if (changed && !stands) motor_->leak(now_ns, {});
 }
 

@@ -20,19 +20,11 @@ template <class... Ts>
 Overloaded(Ts...) -> Overloaded<Ts...>;
 
 ReportClass class_of(const instruments::Sample& sample) {
-  return std::visit(Overloaded{
-                        [](const instruments::CompassSample&) { return ReportClass::att; },
-                        [](const instruments::ImuSample&) { return ReportClass::att; },
-                        [](const instruments::GpsSample&) { return ReportClass::tpv; },
-                        [](const instruments::SkySample&) { return ReportClass::sky; },
-                        [](const instruments::MotorSample&) { return ReportClass::motor; },
-                        [](const instruments::AltimeterSample&) { return ReportClass::altimeter; },
-                        [](const instruments::PowerSample&) { return ReportClass::power; },
-                        [](const instruments::DvlSample&) { return ReportClass::dvl; },
-                        [](const instruments::DepthSample&) { return ReportClass::depth; },
-                        [](const instruments::ScalarSample&) { return ReportClass::sensor; },
-                    },
-                    sample.value);
+  using enum ReportClass;
+  // In the order of the kinds of samples.
+  constexpr std::array kClasses{att, att, tpv, sky, motor, altimeter, power, dvl, depth, sensor};
+  static_assert(kClasses.size() == std::variant_size_v<decltype(sample.value)>);
+  return kClasses[sample.value.index()];
 }
 
 }  // namespace
@@ -109,8 +101,7 @@ void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns
     out += ",\"time\":";
     append_utc(out, *utc_ns, 3);
   }
-  const auto active =
-      std::count_if(last_.begin(), last_.end(), [](const Last& last) { return last.gps.has_value(); });
+  const auto active = std::ranges::count_if(last_, [](const Last& last) { return last.gps.has_value(); });
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"active\":{},\"tpv\":["), active);
   bool first = true;
   const auto list = [&](auto&& append_one) {

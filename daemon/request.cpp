@@ -6,20 +6,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/line_reader.h"
+
 namespace navcal::daemon {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kSpace = " \t\r\n";
 /// Number of characters of a bad request that the answer repeats.
 constexpr std::size_t kQuoted = 80;
-
-std::string_view trim(std::string_view text) {
-  const auto begin = text.find_first_not_of(kSpace);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
-}
 
 /// Follows braces and strings, so that a semicolon inside of JSON ends no command.
 class Nesting {
@@ -66,7 +61,7 @@ std::string_view take_command(std::string_view& line) {
   std::string_view command = line.substr(0, length == 0 ? line.size() : length);
   line.remove_prefix(command.size());
   if (length > 0 && command.back() == ';') command.remove_suffix(1);
-  return trim(command);
+  return base::trimmed(command);
 }
 
 Request not_understood(std::string message) {
@@ -220,7 +215,8 @@ Request device(const Json& object) {
 Request parse(std::string_view command) {
   if (command.empty() || command.front() != '?') return unrecognised(command);
   const auto equals = command.find('=');
-  const std::string_view name = trim(command.substr(1, equals == std::string_view::npos ? equals : equals - 1));
+  const std::string_view name =
+      base::trimmed(command.substr(1, equals == std::string_view::npos ? equals : equals - 1));
   Request request;
   if (equals == std::string_view::npos) {
     using Kind = Request::Kind;

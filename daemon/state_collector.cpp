@@ -108,8 +108,7 @@ StateCollector::Last StateCollector::serving() const {
   const auto pick = [&](Role role, auto Last::*kind) {
     using Kind = std::remove_cvref_t<decltype(std::declval<Last>().*kind)>;
     if (const auto port = sources[role]) return Kind(last_[*port].*kind);
-    const auto found =
-        std::find_if(last_.begin(), last_.end(), [&](const Last& last) { return (last.*kind).has_value(); });
+    const auto found = std::ranges::find_if(last_, [&](const Last& last) { return (last.*kind).has_value(); });
     return found != last_.end() ? Kind((*found).*kind) : Kind();
   };
   Last last;

@@ -67,8 +67,8 @@ void StatusServer::welcome(asio::ip::tcp::socket socket) {
 
 bool StatusServer::make_place() {
   const auto rank = [](const auto& client) { return std::pair(!client->is_idle(), client->used_ns()); };
-  const auto longest = std::min_element(clients_.begin(), clients_.end(),
-                                        [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  const auto longest =
+      std::ranges::min_element(clients_, [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   if (longest == clients_.end() || rank(*longest).first) return false;
   (*longest)->close();
   return true;
@@ -157,14 +157,13 @@ void StatusServer::append_policy(StatusClient& client) {
 }
 
 bool StatusServer::watched(ReportClass report, std::uint16_t port) const {
-  return std::any_of(clients_.begin(), clients_.end(), [&](const auto& client) {
-    return client->watches(report, port) && client->is_due(report, port);
-  });
+  return std::ranges::any_of(
+      clients_, [&](const auto& client) { return client->watches(report, port) && client->is_due(report, port); });
 }
 
 bool StatusServer::watched(ReportClass report) const {
-  return std::any_of(clients_.begin(), clients_.end(),
-                     [&](const auto& client) { return client->watches(report) && client->is_due(report, 0); });
+  return std::ranges::any_of(
+      clients_, [&](const auto& client) { return client->watches(report) && client->is_due(report, 0); });
 }
 
 void StatusServer::publish(ReportClass report, std::uint16_t port, std::string_view line) {
@@ -180,8 +179,8 @@ void StatusServer::publish(ReportClass report, std::string_view line, std::uint1
 }
 
 bool StatusServer::watched(const RecordKey& key) const {
-  return std::any_of(clients_.begin(), clients_.end(),
-                     [&](const auto& client) { return client->watches(key) && client->is_due(key); });
+  return std::ranges::any_of(clients_,
+                             [&](const auto& client) { return client->watches(key) && client->is_due(key); });
 }
 
 void StatusServer::publish(const RecordKey& key, std::string_view line) {
@@ -192,8 +191,8 @@ void StatusServer::publish(const RecordKey& key, std::string_view line) {
 }
 
 bool StatusServer::watched(const NmeaKey& key) const {
-  return std::any_of(clients_.begin(), clients_.end(),
-                     [&](const auto& client) { return client->watches(key) && client->is_due(key); });
+  return std::ranges::any_of(clients_,
+                             [&](const auto& client) { return client->watches(key) && client->is_due(key); });
 }
 
 void StatusServer::publish(const NmeaKey& key, std::string_view sentences) {
@@ -212,7 +211,7 @@ std::int64_t StatusServer::next_state_ns() const {
 }
 
 bool StatusServer::wants_state_of_words() const {
-  return std::any_of(clients_.begin(), clients_.end(), [](const auto& client) {
+  return std::ranges::any_of(clients_, [](const auto& client) {
     return client->watches(ReportClass::state) && client->interval_ns(ReportClass::state) == 0;
   });
 }

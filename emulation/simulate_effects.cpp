@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -12,6 +11,7 @@
 
 #include "base/failure.h"
 #include "emulation/simulate_run.h"
+#include "protocols/decimal.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/document.h"
 #include "sim/effects/effect_table.h"
@@ -31,9 +31,7 @@ class EffectOption {
       name_ = name_.substr(0, at);
     }
     if (equals == std::string_view::npos) return;
-    const std::string_view number = text.substr(equals + 1);
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), strength_);
-    if (error != std::errc{} || end != number.data() + number.size()) strength_ = std::nan("");
+    strength_ = protocols::real(text.substr(equals + 1)).value_or(std::nan(""));
   }
 
   void add(const config::Layout* layout, sim::EffectSet& set, sim::Noise& noise) const {

@@ -144,20 +144,6 @@ void add_task(Database& database, const Task& task) {
            task.bank_seed, task.key);
 }
 
-void add_vehicle(Database& database, const std::string& vehicle, const std::string& name,
-                 const std::string& toml) {
-  Statement(database, "INSERT OR IGNORE INTO vehicles VALUES(?1, ?2, ?3)").run(vehicle, name, toml);
-}
-
-void add_nominal(Database& database, const std::string& vehicle, const std::string& recording) {
-  Statement(database, "INSERT OR IGNORE INTO nominals VALUES(?1, ?2)").run(vehicle, recording);
-}
-
-void add_configuration(Database& database, const std::string& configuration, const std::string& name,
-                       const std::string& toml) {
-  Statement(database, "INSERT OR IGNORE INTO configurations VALUES(?1, ?2, ?3)").run(configuration, name, toml);
-}
-
 fs::path FolderScan::vehicle_of(const fs::path& file) const {
   for (fs::path folder = file.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
     if (const auto found = vehicles.find(folder); found != vehicles.end()) return found->second;

@@ -37,12 +37,6 @@ void read_catalogue(Database& database, const std::string& name, Plan& plan);
 void write_files(Database& database, const std::vector<RecordingFile>& files);
 void add_bank(Database& database, const PlannedBank& bank);
 void add_task(Database& database, const Task& task);
-/// TOML texts of vehicles or configurations.
-void add_vehicle(Database& database, const std::string& vehicle, const std::string& name, const std::string& toml);
-/// A recording without a gap of a vehicle with a layout.
-void add_nominal(Database& database, const std::string& vehicle, const std::string& recording);
-void add_configuration(Database& database, const std::string& configuration, const std::string& name,
-                       const std::string& toml);
 
 /// Recordings (.cap, .mcap) and vehicles (vehicle.toml) below a folder. Hidden folders, links to folders, and
 /// folders of plans are passed over.

@@ -47,9 +47,10 @@ nlohmann::ordered_json recording_identity(const std::filesystem::path& file) {
   const auto recording = record::Recording::open(file);
   std::string gyro, compass;
   for (const config::PortSettings& port : recording->settings().ports) {
-    const protocols::Delivery delivers = protocols::device_row(port.protocol).delivers;
-    if (delivers.rates && gyro.empty()) gyro = port.serial_number;
-    if ((delivers.field || delivers.heading) && compass.empty()) compass = port.serial_number;
+    const protocols::RoleSet delivers = protocols::device_row(port.protocol).delivers;
+    if (delivers.has(config::Role::rates) && gyro.empty()) gyro = port.serial_number;
+    if (delivers.has_any({config::Role::field, config::Role::heading}) && compass.empty())
+      compass = port.serial_number;
   }
   nlohmann::ordered_json json{{"vehicle_id", recording->settings().vehicle.id},
                               {"vehicle_name", recording->settings().vehicle.name},

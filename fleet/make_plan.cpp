@@ -77,7 +77,8 @@ class Planner {
     if (settings_) {
       const std::string toml = config::to_toml(*settings_);
       configuration_ = record::sha256_of(toml);
-      add_configuration(database, configuration_, request.config.string(), toml);
+      Statement(database, "INSERT OR IGNORE INTO configurations VALUES(?1, ?2, ?3)")
+          .run(configuration_, request.config.string(), toml);
     }
   }
 
@@ -196,8 +197,10 @@ class Planner {
     std::string keyed = toml;
     for (const RecordingFile& nominal : nominals_) keyed += nominal.recording;
     vehicle.key = record::sha256_of(keyed);
-    add_vehicle(database_, vehicle.key, file.empty() ? "the reference vehicle" : file.string(), toml);
-    for (const RecordingFile& nominal : nominals_) add_nominal(database_, vehicle.key, nominal.recording);
+    Statement(database_, "INSERT OR IGNORE INTO vehicles VALUES(?1, ?2, ?3)")
+        .run(vehicle.key, file.empty() ? "the reference vehicle" : file.string(), toml);
+    Statement insert(database_, "INSERT OR IGNORE INTO nominals VALUES(?1, ?2)");
+    for (const RecordingFile& nominal : nominals_) insert.run(vehicle.key, nominal.recording);
     return found->second = vehicle;
   }
 

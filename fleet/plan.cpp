@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <system_error>
 
 #include "base/failure.h"
 #include "fleet/catalogue.h"
 #include "fleet/database.h"
 #include "fleet/jobs.h"
+#include "protocols/decimal.h"
 #include "record/content_hash.h"
 
 namespace navcal::fleet {
@@ -33,9 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 
 int number_in(std::string_view text, std::string_view all) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < 1) {
+  const int number = protocols::integer<int>(text).value_or(0);
+  if (number < 1) {
     throw base::Failure(base::Exit::usage, fmt::format("{}: tasks are given as 7, as 3,5,7 or as 10-20", all));
   }
   return number;

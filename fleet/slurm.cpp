@@ -8,6 +8,7 @@
 #include <charconv>
 #include <utility>
 
+#include "base/line_reader.h"
 #include "base/spawn.h"
 
 namespace navcal::fleet {
@@ -40,14 +41,6 @@ std::string answer_to(const std::vector<std::string>& command) {
   throw SlurmError(said.empty() ? fmt::format("{} ended with status {}", command.front(), output.status) : said);
 }
 
-/// The text up to a separator, which is taken away with it.
-std::string_view take_field(std::string_view& text, char separator) {
-  const auto end = std::min(text.find(separator), text.size());
-  const std::string_view field = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return field;
-}
-
 }  // namespace
 
 std::vector<QueuedArray> queued_arrays(const std::string& name_prefix) {
@@ -59,8 +52,9 @@ std::vector<QueuedArray> arrays_in(std::string_view squeue, const std::string& n
                                                    "TIMEOUT",   "OUT_OF_MEMORY", "DEADLINE"};
   std::vector<QueuedArray> found;
   while (!squeue.empty()) {
-    std::string_view line = take_field(squeue, '\n');
-    const std::string_view name = take_field(line, '|'), id = take_field(line, '|'), state = take_field(line, '|');
+    std::string_view line = base::take_until(squeue, "\n");
+    const std::string_view name = base::take_until(line, "|"), id = base::take_until(line, "|"),
+                           state = base::take_until(line, "|");
     if (!name.starts_with(name_prefix) || std::find(kEnded.begin(), kEnded.end(), state) != kEnded.end()) continue;
     auto at = std::find_if(found.begin(), found.end(), [&](const QueuedArray& one) { return one.id == id; });
     if (at == found.end()) at = found.insert(found.end(), {std::string(name), std::string(id), 0, 0, {}});
@@ -89,7 +83,7 @@ std::size_t largest_array() {
   constexpr std::size_t kUsual = 1000;
   const std::string answer = answer_to({"scontrol", "show", "config"});
   for (std::string_view rest = answer; !rest.empty();) {
-    std::string_view line = take_field(rest, '\n');
+    std::string_view line = base::take_until(rest, "\n");
     if (!line.starts_with(kKey)) continue;
     line.remove_prefix(std::min(line.find_first_of("0123456789"), line.size()));
     std::size_t size = 0;
@@ -106,8 +100,8 @@ std::set<std::string> bad_ends_of(const std::string& id) {
   std::set<std::string> ends;
   if (output.status != 0) return ends;
   for (std::string_view rest = output.out; !rest.empty();) {
-    std::string_view line = take_field(rest, '\n');
-    const std::string state(take_field(line, ' '));  // "CANCELLED by 1000"
+    std::string_view line = base::take_until(rest, "\n");
+    const std::string state(base::take_until(line, " "));  // "CANCELLED by 1000"
     if (!state.empty() && state != "COMPLETED") ends.insert(state);
   }
   return ends;

@@ -8,12 +8,12 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <string>
 #include <system_error>
 
 #include "base/descriptor.h"
+#include "protocols/decimal.h"
 
 namespace navcal::fleet {
 namespace {
@@ -43,10 +43,8 @@ bool is_leftover(std::string_view name) {
   name.remove_suffix(kPart.size());
   const auto dot = name.rfind('.');
   if (dot == std::string_view::npos || !name.substr(0, dot).ends_with("." + host_name())) return false;
-  pid_t pid = 0;
-  const auto [end, error] = std::from_chars(name.data() + dot + 1, name.data() + name.size(), pid);
-  return error == std::errc() && end == name.data() + name.size() && pid > 0 && ::kill(pid, 0) != 0 &&
-         errno == ESRCH;
+  const auto pid = protocols::integer<pid_t>(name.substr(dot + 1)).value_or(0);
+  return pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH;
 }
 
 void write_all(int to, std::string_view content, const fs::path& file) {

@@ -28,9 +28,8 @@ constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 std::size_t place(Meaning meaning) { return static_cast<std::size_t>(meaning); }
 
 bool has_any(const std::vector<Meaning>& meanings, std::initializer_list<Meaning> wanted) {
-  return std::any_of(meanings.begin(), meanings.end(), [&](Meaning meaning) {
-    return std::find(wanted.begin(), wanted.end(), meaning) != wanted.end();
-  });
+  return std::ranges::any_of(
+      meanings, [&](Meaning meaning) { return std::find(wanted.begin(), wanted.end(), meaning) != wanted.end(); });
 }
 
 std::optional<double> heading_of(std::optional<double> angle_rad) {
@@ -251,8 +250,7 @@ class DescribedDevice final : public Instrument {
   }
 
   Verdict read(const protocols::Frame& frame, Receiver& receiver) override {
-    const auto found =
-        std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.id == frame.id; });
+    const auto found = std::ranges::find_if(kinds_, [&](const Kind& kind) { return kind.id == frame.id; });
     if (found == kinds_.end()) return Verdict::ignored;
     Kind& kind = *found;
     if (!kind.reader.read(frame.bytes, kind.values)) return Verdict::out_of_range;

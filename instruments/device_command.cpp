@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/durations.h"
+#include "base/line_reader.h"
 #include "instruments/tcm2_dialogue.h"
 #include "protocols/decimal.h"
 #include "protocols/oncore.h"
@@ -81,11 +82,7 @@ std::optional<Outcome> identification(const protocols::Frame& frame) {
   if (!text) return std::nullopt;
   std::string joined;
   for (std::string_view rest = *text; !rest.empty();) {
-    const auto end = std::min(rest.find_first_of("\r\n"), rest.size());
-    std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-    line = line.substr(0, line.find_last_not_of(' ') + 1);
+    const std::string_view line = base::trimmed(base::take_until(rest, "\r\n"), " ");
     if (line.empty()) continue;
     joined += joined.empty() ? "" : "; ";
     joined += line;

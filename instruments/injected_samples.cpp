@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string>
 #include <type_traits>
 
 #include "base/angles.h"
 #include "instruments/devices.h"
 #include "instruments/sample_fields.h"
+#include "protocols/decimal.h"
 #include "protocols/samples_line.h"
 
 namespace navcal::instruments {
@@ -53,8 +53,9 @@ struct MemberReader {
   bool operator()(std::uint32_t& code) const {
     const auto digits = fields.text(key);
     if (!digits) return false;
-    const auto [end, failed] = std::from_chars(digits->data(), digits->data() + digits->size(), code, 16);
-    if (failed != std::errc{} || end != digits->data() + digits->size()) fields.refuse();
+    const auto number = protocols::integer<std::uint32_t>(*digits, 16);
+    if (!number) fields.refuse();
+    code = number.value_or(code);
     return true;
   }
   bool operator()(Fix& fix) const { return put_named(fix, Fix::bad_geometry); }

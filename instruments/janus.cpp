@@ -52,8 +52,7 @@ std::optional<JanusVelocity> velocity_of_beams(const BeamValues& beam_m_s, const
   JanusVelocity result;
   result.velocity_m_s = {sign * across * (b[0] - b[1]), sign * across * (b[3] - b[2]),
                          along * (b[0] + b[1] + b[2] + b[3])};
-  const bool has_all =
-      std::all_of(beam_m_s.begin(), beam_m_s.end(), [](const auto& one) { return one.has_value(); });
+  const bool has_all = std::ranges::all_of(beam_m_s, [](const auto& one) { return one.has_value(); });
   if (has_all) result.error_m_s = across / std::numbers::sqrt2 * (b[0] + b[1] - b[2] - b[3]);
   return result;
 }

@@ -92,9 +92,8 @@ class OncoreReceiver final : public Instrument {
       satellite.prn = seen.number;
       satellite.elevation_deg = seen.elevation_deg;
       satellite.azimuth_deg = seen.azimuth_deg;
-      const auto channel = std::find_if(channels_.begin(), channels_.end(), [&](const oncore::Channel& c) {
-        return c.satellite != 0 && c.satellite == seen.number;
-      });
+      const auto channel = std::ranges::find_if(
+          channels_, [&](const oncore::Channel& c) { return c.satellite != 0 && c.satellite == seen.number; });
       if (channel != channels_.end()) {
         satellite.cn0_dBHz = channel->cn0;
         satellite.used = channel->mode == kUsedForPosition;

@@ -77,12 +77,10 @@ using protocols::described::Meaning;
 /// One member of a sample, or of the state of a card in it.
 template <class Owner, class T>
 struct Field {
-  std::string_view key;  ///< in JSON
+  std::string_view key;  ///< in JSON; what it means says record/log/topics.txt
   T Owner::*member;
   Quantity quantity;
-  std::string_view description{};  ///< empty: as of the same key in a kind before
-  Meaning meaning{};               ///< of the number that a described device sends; of a vector, its first
-  std::string_view cf_name{};      ///< standard name of the CF conventions
+  Meaning meaning{};  ///< of the number that a described device sends; of a vector, its first
 };
 template <class Owner, class T, class... Rest>
 Field(std::string_view, T Owner::*, Rest...) -> Field<Owner, T>;
@@ -102,128 +100,81 @@ constexpr auto kind_of() {
   using enum Meaning;
   if constexpr (requires { &S::dip_rad; }) {
     return Kind(
-        "COMPASS", "compass",
-        Field{"heading_rad", &S::heading_rad, kDirection, "heading as the device said it, from magnetic north",
-              heading},
-        Field{"heading_calibrated_rad", &S::heading_calibrated_rad, kOurDirection,
-              "heading by the calibration in force, from magnetic north"},
-        Field{"heading_is_true", &S::heading_is_true, kFlag, "the device itself says the heading from true north"},
-        Field{"pitch_rad", &S::pitch_rad, kAngle, "pitch, positive nose up", pitch, "platform_pitch_fore_up"},
-        Field{"roll_rad", &S::roll_rad, kAngle, "roll, positive starboard down", roll,
-              "platform_roll_starboard_down"},
-        Field{"field_body_uT", &S::field_body_uT, kField, "magnetic field in body axes (forward, starboard, down)",
-              field_x},
-        Field{"dip_rad", &S::dip_rad, kDip, "inclination of the magnetic field as the device said it", dip},
-        Field{"turn_rate_rad_s", &S::turn_rate_rad_s, kRate,
-              "rate of turn as the device said it, positive to starboard", turn_rate,
-              "platform_yaw_rate_fore_starboard"},
-        Field{"temperature_C", &S::temperature_C, kTemperature, "temperature that the device measures",
-              temperature},
-        Field{"error", &S::error, kCode, "error code of the compass, hexadecimal"},
-        Field{"tilt_by_accelerometers", &S::tilt_by_accelerometers, kFlag,
-              "pitch and roll are not the compass's own"},
-        Field{"heading_std_rad", &S::heading_std_rad, error_in("radian"), "standard error of the heading",
-              heading},
-        Field{"tilt_std_rad", &S::tilt_std_rad, error_in("radian"), "standard error of pitch and roll", pitch},
-        Field{"field_std_uT", &S::field_std_uT, error_in("uT"), "standard error of the magnetic field, each axis",
-              field_x});
+        "COMPASS", "compass", Field{"heading_rad", &S::heading_rad, kDirection, heading},
+        Field{"heading_calibrated_rad", &S::heading_calibrated_rad, kOurDirection},
+        Field{"heading_is_true", &S::heading_is_true, kFlag}, Field{"pitch_rad", &S::pitch_rad, kAngle, pitch},
+        Field{"roll_rad", &S::roll_rad, kAngle, roll}, Field{"field_body_uT", &S::field_body_uT, kField, field_x},
+        Field{"dip_rad", &S::dip_rad, kDip, dip}, Field{"turn_rate_rad_s", &S::turn_rate_rad_s, kRate, turn_rate},
+        Field{"temperature_C", &S::temperature_C, kTemperature, temperature}, Field{"error", &S::error, kCode},
+        Field{"tilt_by_accelerometers", &S::tilt_by_accelerometers, kFlag},
+        Field{"heading_std_rad", &S::heading_std_rad, error_in("radian"), heading},
+        Field{"tilt_std_rad", &S::tilt_std_rad, error_in("radian"), pitch},
+        Field{"field_std_uT", &S::field_std_uT, error_in("uT"), field_x});
   } else if constexpr (requires { &S::over_range; }) {
     using Card = typename decltype(S::card)::value_type;
-    return Kind(
-        "IMU", "imu",
-        Field{"rate_rad_s", &S::rate_rad_s, kRate, "rate of turn about body axes (gyros A-x, B-y, A-z)", rate_x},
-        Field{"yaw_rate_b_rad_s", &S::yaw_rate_b_rad_s, kRate, "rate of turn about the z axis, gyro B",
-              rate_yaw_b},
-        Field{"yaw_rate_calibrated_rad_s", &S::yaw_rate_calibrated_rad_s, kOurRate,
-              "gyro A's z axis by the calibration in force"},
-        Field{"yaw_rate_b_calibrated_rad_s", &S::yaw_rate_b_calibrated_rad_s, kOurRate,
-              "gyro B's z axis by the calibration in force"},
-        Field{"specific_force_m_s2", &S::specific_force_m_s2, kForce,
-              "specific force in body axes, -9.81 in z when level and still", specific_force_x},
-        Field{"depth_m", &S::depth_m, kDepth, "depth of the vehicle", depth, "depth"},
-        Field{"sequence", &Card::sequence, kCount, "number of the frame as the device counts it", sequence},
-        Field{"leak_forward", &Card::leak_forward, kFlag, "water in the forward section", leak_forward},
-        Field{"leak_aft", &Card::leak_aft, kFlag, "water in the aft section", leak_aft},
-        Field{"low_supply", &Card::low_supply, kFlag, "the supply is low", low_supply},
-        Field{"over_range", &S::over_range, kFlag, "a channel is beyond its range", over_range},
-        Field{"temperature_C", &S::temperature_C, kTemperature, "", temperature},
-        Field{"rate_std_rad_s", &S::rate_std_rad_s, error_in("radian s-1"),
-              "standard error of the rates of turn, each axis", rate_x},
-        Field{"specific_force_std_m_s2", &S::specific_force_std_m_s2, error_in("m s-2"),
-              "standard error of the specific force, each axis", specific_force_x},
-        Field{"depth_std_m", &S::depth_std_m, error_in("m"), "standard error of the depth", depth});
+    return Kind("IMU", "imu", Field{"rate_rad_s", &S::rate_rad_s, kRate, rate_x},
+                Field{"yaw_rate_b_rad_s", &S::yaw_rate_b_rad_s, kRate, rate_yaw_b},
+                Field{"yaw_rate_calibrated_rad_s", &S::yaw_rate_calibrated_rad_s, kOurRate},
+                Field{"yaw_rate_b_calibrated_rad_s", &S::yaw_rate_b_calibrated_rad_s, kOurRate},
+                Field{"specific_force_m_s2", &S::specific_force_m_s2, kForce, specific_force_x},
+                Field{"depth_m", &S::depth_m, kDepth, depth}, Field{"sequence", &Card::sequence, kCount, sequence},
+                Field{"leak_forward", &Card::leak_forward, kFlag, leak_forward},
+                Field{"leak_aft", &Card::leak_aft, kFlag, leak_aft},
+                Field{"low_supply", &Card::low_supply, kFlag, low_supply},
+                Field{"over_range", &S::over_range, kFlag, over_range},
+                Field{"temperature_C", &S::temperature_C, kTemperature, temperature},
+                Field{"rate_std_rad_s", &S::rate_std_rad_s, error_in("radian s-1"), rate_x},
+                Field{"specific_force_std_m_s2", &S::specific_force_std_m_s2, error_in("m s-2"), specific_force_x},
+                Field{"depth_std_m", &S::depth_std_m, error_in("m"), depth});
   } else if constexpr (requires { &S::fix; }) {
-    return Kind(
-        "GPS", "gps", Field{"lat", &S::latitude_rad, kLatitude, "latitude, WGS84", latitude, "latitude"},
-        Field{"lon", &S::longitude_rad, kLongitude, "longitude, WGS84", longitude, "longitude"},
-        Field{"speed_m_s", &S::speed_m_s, kSpeed, "speed over ground", speed, "platform_speed_wrt_ground"},
-        Field{"course_rad", &S::course_rad, kDirection, "course over ground, from true north", course,
-              "platform_course"},
-        Field{"fix", &S::fix, kWord, "kind of the fix"},
-        Field{"height_m", &S::height_m, kHeight, "height above the ellipsoid", height,
-              "height_above_reference_ellipsoid"},
-        Field{"height_msl_m", &S::height_msl_m, kHeight, "height above mean sea level", height_msl, "altitude"},
-        Field{"climb_m_s", &S::climb_m_s, kVelocity, "vertical velocity, positive upwards", climb},
-        Field{"dop", &S::dop, kDop, "dilution of precision, of position when 3D, horizontal when 2D", dop},
-        Field{"visible", &S::visible, kCount, "satellites in view"},
-        Field{"tracked", &S::tracked, kCount, "satellites tracked", satellites},
-        Field{"time_corrected", &S::time_corrected, kFlag, "a rollover of the week was undone"},
-        Field{"leap_known", &S::leap_known, kFlag, "the receiver knows the leap seconds"},
-        Field{"position_std_m", &S::position_std_m, error_in("m"),
-              "standard error of the position, north and east", latitude},
-        Field{"height_std_m", &S::height_std_m, error_in("m"), "standard error of the height", height},
-        Field{"velocity_std_m_s", &S::velocity_std_m_s, error_in("m s-1"),
-              "standard error of the velocity, north and east", speed});
+    return Kind("GPS", "gps", Field{"lat", &S::latitude_rad, kLatitude, latitude},
+                Field{"lon", &S::longitude_rad, kLongitude, longitude},
+                Field{"speed_m_s", &S::speed_m_s, kSpeed, speed},
+                Field{"course_rad", &S::course_rad, kDirection, course}, Field{"fix", &S::fix, kWord},
+                Field{"height_m", &S::height_m, kHeight, height},
+                Field{"height_msl_m", &S::height_msl_m, kHeight, height_msl},
+                Field{"climb_m_s", &S::climb_m_s, kVelocity, climb}, Field{"dop", &S::dop, kDop, dop},
+                Field{"visible", &S::visible, kCount}, Field{"tracked", &S::tracked, kCount, satellites},
+                Field{"time_corrected", &S::time_corrected, kFlag}, Field{"leap_known", &S::leap_known, kFlag},
+                Field{"position_std_m", &S::position_std_m, error_in("m"), latitude},
+                Field{"height_std_m", &S::height_std_m, error_in("m"), height},
+                Field{"velocity_std_m_s", &S::velocity_std_m_s, error_in("m s-1"), speed});
   } else if constexpr (requires { &S::fins_rad; }) {
-    return Kind(
-        "MOTOR", "motor", Field{"rpm", &S::rpm, kTurns, "revolutions of the shaft", rpm},
-        Field{"rpm_commanded", &S::rpm_commanded, kTurns, "revolutions commanded", rpm_commanded},
-        Field{"fins_rad", &S::fins_rad, kAngle, "angle of the fin", fin_1},
-        Field{"current_A", &S::current_A, kCurrent, "current of the motor, or out of the battery", motor_current},
-        Field{"sequence", &S::sequence, kSequence, "", sequence},
-        Field{"fins_std_rad", &S::fins_std_rad, error_in("radian"), "standard error of the fin angles", fin_1},
-        Field{"current_std_A", &S::current_std_A, error_in("A"), "standard error of the current", motor_current});
+    return Kind("MOTOR", "motor", Field{"rpm", &S::rpm, kTurns, rpm},
+                Field{"rpm_commanded", &S::rpm_commanded, kTurns, rpm_commanded},
+                Field{"fins_rad", &S::fins_rad, kAngle, fin_1},
+                Field{"current_A", &S::current_A, kCurrent, motor_current},
+                Field{"sequence", &S::sequence, kSequence, sequence},
+                Field{"fins_std_rad", &S::fins_std_rad, error_in("radian"), fin_1},
+                Field{"current_std_A", &S::current_std_A, error_in("A"), motor_current});
   } else if constexpr (requires { &S::voltage_V; }) {
-    return Kind("POWER", "power",
-                Field{"voltage_V", &S::voltage_V, kVoltage, "voltage of the battery under load", voltage},
-                Field{"current_A", &S::current_A, kCurrent, "", current});
+    return Kind("POWER", "power", Field{"voltage_V", &S::voltage_V, kVoltage, voltage},
+                Field{"current_A", &S::current_A, kCurrent, current});
   } else if constexpr (requires { &S::frame; }) {
-    return Kind("DVL", "dvl",
-                Field{"frame", &S::frame, kWord,
-                      "axes of the velocities: body (forward, starboard, down) or earth (north, east, down)"},
-                Field{"bottom_velocity_m_s", &S::bottom_velocity_m_s, kVelocity, "velocity over the bottom",
-                      bottom_velocity_x},
-                Field{"bottom_velocity_std_m_s", &S::bottom_velocity_std_m_s, error_in("m s-1"),
-                      "standard error of the velocity over the bottom, each axis", bottom_velocity_x},
-                Field{"water_velocity_m_s", &S::water_velocity_m_s, kVelocity, "velocity through the water",
-                      water_velocity_x},
-                Field{"water_velocity_std_m_s", &S::water_velocity_std_m_s, error_in("m s-1"),
-                      "standard error of the velocity through the water, each axis", water_velocity_x},
-                Field{"altitude_m", &S::altitude_m, kAltitude, "", altitude},
-                Field{"altitude_std_m", &S::altitude_std_m, error_in("m"), "", altitude},
-                Field{"temperature_C", &S::temperature_C, kTemperature, "", temperature},
-                Field{"sound_speed_m_s", &S::sound_speed_m_s, kSound,
-                      "speed of sound that the device reckons with", sound_speed, "speed_of_sound_in_sea_water"});
-  } else if constexpr (requires { &S::pressure_Pa; }) {
     return Kind(
-        "DEPTH", "depth", Field{"depth_m", &S::depth_m, kDepth, "", depth},
-        Field{"depth_std_m", &S::depth_std_m, error_in("m"), "", depth},
-        Field{"pressure_Pa", &S::pressure_Pa, kPressure, "absolute pressure", pressure},
-        Field{"pressure_std_Pa", &S::pressure_std_Pa, error_in("Pa"), "standard error of the pressure", pressure},
-        Field{"temperature_C", &S::temperature_C, kTemperature, "", temperature});
+        "DVL", "dvl", Field{"frame", &S::frame, kWord},
+        Field{"bottom_velocity_m_s", &S::bottom_velocity_m_s, kVelocity, bottom_velocity_x},
+        Field{"bottom_velocity_std_m_s", &S::bottom_velocity_std_m_s, error_in("m s-1"), bottom_velocity_x},
+        Field{"water_velocity_m_s", &S::water_velocity_m_s, kVelocity, water_velocity_x},
+        Field{"water_velocity_std_m_s", &S::water_velocity_std_m_s, error_in("m s-1"), water_velocity_x},
+        Field{"altitude_m", &S::altitude_m, kAltitude, altitude},
+        Field{"altitude_std_m", &S::altitude_std_m, error_in("m"), altitude},
+        Field{"temperature_C", &S::temperature_C, kTemperature, temperature},
+        Field{"sound_speed_m_s", &S::sound_speed_m_s, kSound, sound_speed});
+  } else if constexpr (requires { &S::pressure_Pa; }) {
+    return Kind("DEPTH", "depth", Field{"depth_m", &S::depth_m, kDepth, depth},
+                Field{"depth_std_m", &S::depth_std_m, error_in("m"), depth},
+                Field{"pressure_Pa", &S::pressure_Pa, kPressure, pressure},
+                Field{"pressure_std_Pa", &S::pressure_std_Pa, error_in("Pa"), pressure},
+                Field{"temperature_C", &S::temperature_C, kTemperature, temperature});
   } else if constexpr (requires { &S::quantity; }) {
-    return Kind("SENSOR", "sensor", Field{"quantity", &S::quantity, kWord, "quantity that the sensor measures"},
-                Field{"unit", &S::unit, kWord, "unit of the value"},
-                Field{"value", &S::value, kAny, "value in that unit"},
-                Field{"value_std", &S::value_std, error_in(""), "standard error of the value"});
+    return Kind("SENSOR", "sensor", Field{"quantity", &S::quantity, kWord}, Field{"unit", &S::unit, kWord},
+                Field{"value", &S::value, kAny}, Field{"value_std", &S::value_std, error_in("")});
   } else if constexpr (requires { &S::satellites; }) {
     return Kind("SKY", "sky");  // counts, which are written apart
   } else {
-    return Kind("ALTIMETER", "altimeter",
-                Field{"altitude_m", &S::altitude_m, kAltitude, "distance from the transducer to the bottom",
-                      altitude, "height_above_sea_floor"},
-                Field{"altitude_std_m", &S::altitude_std_m, error_in("m"),
-                      "standard error of the height above the sea floor", altitude});
+    return Kind("ALTIMETER", "altimeter", Field{"altitude_m", &S::altitude_m, kAltitude, altitude},
+                Field{"altitude_std_m", &S::altitude_std_m, error_in("m"), altitude});
   }
 }
 

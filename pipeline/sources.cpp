@@ -42,16 +42,10 @@ RoleSet roles_of(const instruments::GpsSample& gps) {
 }
 
 RoleSet roles_of(const instruments::MotorSample& motor) {
-  RoleSet roles;
-  if (motor.rpm || motor.current_A) roles.add(Role::shaft);
-  return roles;
+  return motor.rpm || motor.current_A ? RoleSet{Role::shaft} : RoleSet{};
 }
 
-RoleSet roles_of(const instruments::AltimeterSample&) {
-  RoleSet roles;
-  roles.add(Role::altitude);
-  return roles;
-}
+RoleSet roles_of(const instruments::AltimeterSample&) { return {Role::altitude}; }
 
 RoleSet roles_of(const instruments::DvlSample& dvl) {
   RoleSet roles;
@@ -62,9 +56,7 @@ RoleSet roles_of(const instruments::DvlSample& dvl) {
 }
 
 RoleSet roles_of(const instruments::DepthSample& gauge) {
-  RoleSet roles;
-  if (gauge.depth_m || gauge.pressure_Pa) roles.add(Role::depth);
-  return roles;
+  return gauge.depth_m || gauge.pressure_Pa ? RoleSet{Role::depth} : RoleSet{};
 }
 
 template <class Other>
@@ -105,9 +97,8 @@ std::vector<std::uint16_t> candidates(const config::Settings& settings, Role rol
     const bool may_serve = !by_choice || is_chosen(settings, port, role);
     if (may_serve && config::can_deliver(settings.ports[i], role)) ports.push_back(port);
   }
-  std::stable_sort(ports.begin(), ports.end(), [&](std::uint16_t a, std::uint16_t b) {
-    return rank(settings, a, role) < rank(settings, b, role);
-  });
+  std::ranges::stable_sort(
+      ports, [&](std::uint16_t a, std::uint16_t b) { return rank(settings, a, role) < rank(settings, b, role); });
   return ports;
 }
 
@@ -192,8 +183,8 @@ std::optional<Sources::Change> Sources::take(Service& service, Role role, const 
     ++candidate.error_statements;
   }
   if (!service.learnt && now_ns - *service.began_ns >= kSilent_ns) {
-    const auto best = std::find_if(service.candidates.begin(), service.candidates.end(),
-                                   [](const Candidate& other) { return other.newest_ns.has_value(); });
+    const auto best = std::ranges::find_if(service.candidates,
+                                           [](const Candidate& other) { return other.newest_ns.has_value(); });
     service.learnt = static_cast<std::size_t>(best - service.candidates.begin());
   }
   if (place == *service.server) return std::nullopt;

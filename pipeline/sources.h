@@ -13,17 +13,10 @@
 
 namespace navcal::pipeline {
 
+using protocols::RoleSet;
+
 /// The roles that a sample fills. NMEA's ROT and XDR lines are no headings, and a receiver without a fix has
 /// neither position nor velocity.
-class RoleSet {
- public:
-  void add(Role role) { bits_ |= 1U << static_cast<unsigned>(role); }
-  [[nodiscard]] bool has(Role role) const { return (bits_ >> static_cast<unsigned>(role) & 1U) != 0; }
-  [[nodiscard]] bool is_empty() const { return bits_ == 0; }
-
- private:
-  unsigned bits_ = 0;
-};
 [[nodiscard]] RoleSet roles_of(const instruments::Sample& sample);
 
 /// Ports that can fill a role, the best first: the one that [roles] names, then those whose protocol always says

@@ -51,6 +51,14 @@ template <std::integral T>
   return value;
 }
 
+/// The whole of `text` as a number, with or without an exponent, or "inf" or "nan".
+[[nodiscard]] inline std::optional<double> real(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
 /// Appends `value` with a fixed number of decimals (0 to 6), as instruments print it: no `-` before a zero.
 /// `value` must be finite and smaller than 1e15 in size.
 inline void append_decimal(std::string& text, double value, int decimals) {

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <string_view>
 
 #include "protocols/frame.h"
@@ -11,39 +13,40 @@
 /// lacks one of them does not compile (docs/contributing.md).
 namespace navcal::protocols {
 
-/// What a device measures; the members are those of config::Role.
-struct Delivery {
-  bool heading = false;
-  bool field = false;
-  bool rates = false;
-  bool acceleration = false;
-  bool depth = false;
-  bool position = false;
-  bool velocity = false;
-  bool shaft = false;
-  bool altitude = false;
-  bool bottom_velocity = false;
-  bool water_velocity = false;
+/// Quantities that navigation and calibration need. One device delivers each of them.
+enum class Role : std::uint8_t {
+  heading,
+  field,
+  rates,
+  acceleration,
+  depth,
+  position,
+  velocity,  ///< over ground, by a receiver
+  shaft,
+  altitude,
+  bottom_velocity,   ///< over the bottom, by a Doppler log
+  water_velocity,    ///< through the water, likewise
+  heading_reference  ///< true heading that the compass is calibrated against; of a port that the operator names
+};
+
+class RoleSet {
+ public:
+  constexpr RoleSet(std::initializer_list<Role> roles = {}) {
+    for (const Role role : roles) add(role);
+  }
+  constexpr void add(Role role) { bits_ |= 1U << static_cast<unsigned>(role); }
+  [[nodiscard]] constexpr bool has(Role role) const { return has_any({role}); }
+  [[nodiscard]] constexpr bool has_any(RoleSet others) const { return (bits_ & others.bits_) != 0; }
+  [[nodiscard]] constexpr bool is_empty() const { return bits_ == 0; }
+
+ private:
+  unsigned bits_ = 0;
 };
 
 /// For devices of which anything can come.
-inline constexpr Delivery kEverything{.heading = true,
-                                      .field = true,
-                                      .rates = true,
-                                      .acceleration = true,
-                                      .depth = true,
-                                      .position = true,
-                                      .velocity = true,
-                                      .shaft = true,
-                                      .altitude = true,
-                                      .bottom_velocity = true,
-                                      .water_velocity = true};
-
-inline constexpr Delivery kOfAutopilot = [] {
-  Delivery delivery = kEverything;
-  delivery.shaft = delivery.water_velocity = false;
-  return delivery;
-}();
+inline constexpr RoleSet kEverything{
+    Role::heading,  Role::field, Role::rates,    Role::acceleration,    Role::depth,         Role::position,
+    Role::velocity, Role::shaft, Role::altitude, Role::bottom_velocity, Role::water_velocity};
 
 /// The tables of options that a port of this device has: [port.NAME.units], [port.NAME.channels], [port.NAME.fix].
 struct OptionTables {
@@ -59,12 +62,12 @@ struct VehiclePort {
 };
 
 struct DeviceType {
-  std::string_view name{};   ///< of its protocol in configurations, captures, logs and options
-  int baud = 9600;           ///< line speed as delivered
-  double latency_s = 0;      ///< from the measurement to the first byte on the wire
-  double latency_std_s = 0;  ///< its uncertainty, one standard deviation
-  double rate_Hz = 0;        ///< nominal frame rate; 0: none is known
-  Delivery delivers{};
+  std::string_view name{};       ///< of its protocol in configurations, captures, logs and options
+  int baud = 9600;               ///< line speed as delivered
+  double latency_s = 0;          ///< from the measurement to the first byte on the wire
+  double latency_std_s = 0;      ///< its uncertainty, one standard deviation
+  double rate_Hz = 0;            ///< nominal frame rate; 0: none is known
+  RoleSet delivers{};            ///< what it measures
   bool delivers_always = true;   ///< false: which of these it sends depends on the single device
   bool dates_roll_over = false;  ///< its dates can be whole epochs of 1024 weeks too early
   OptionTables options{};
@@ -91,63 +94,53 @@ constexpr DeviceType device(std::string_view name, const Wire& wire, DeviceType 
 
 /// One row for each device. Values that are not in the enumeration have a row without a name.
 constexpr DeviceType device_row(Protocol protocol) {
+  using enum Role;
   switch (protocol) {
     case Protocol::tcm2:
       return device("tcm2", {.baud = 9600, .latency_s = 0.050, .latency_std_s = 0.002, .rate_Hz = 10},
-                    {.delivers = {.heading = true, .field = true},
-                     .options = {.units = true},
-                     .vehicle = {"compass", 38400}});
+                    {.delivers = {heading, field}, .options = {.units = true}, .vehicle = {"compass", 38400}});
     case Protocol::imu_card:
-      return device("imu-card", {.baud = 57600, .latency_s = 0.025, .latency_std_s = 0.0005, .rate_Hz = 20},
-                    {.delivers = {.rates = true, .acceleration = true, .depth = true},
-                     .options = {.channels = true},
-                     .vehicle = {"imu", 57600}});
+      return device(
+          "imu-card", {.baud = 57600, .latency_s = 0.025, .latency_std_s = 0.0005, .rate_Hz = 20},
+          {.delivers = {rates, acceleration, depth}, .options = {.channels = true}, .vehicle = {"imu", 57600}});
     case Protocol::oncore:
       return device("oncore", {.baud = 9600, .latency_s = 0.300, .latency_std_s = 0.020, .rate_Hz = 1},
-                    {.delivers = {.position = true, .velocity = true},
+                    {.delivers = {position, velocity},
                      .dates_roll_over = true,
                      .options = {.fix = true},
                      .vehicle = {"gps", 9600}});
     case Protocol::motor_card:
       return device("motor-card", {.baud = 19200, .latency_s = 0.005, .latency_std_s = 0.001, .rate_Hz = 10},
-                    {.delivers = {.shaft = true}, .vehicle = {"motor", 19200}});
+                    {.delivers = {shaft}, .vehicle = {"motor", 19200}});
     case Protocol::nmea:
       // Receivers and compasses of all kinds: nothing is known of them but that they are not quicker than this.
       return device("nmea", {.baud = 4800, .latency_std_s = 0.050},
-                    {.delivers = {.heading = true, .position = true, .velocity = true, .altitude = true},
+                    {.delivers = {heading, position, velocity, altitude},
                      .delivers_always = false,
                      .options = {.units = true, .fix = true}});
     case Protocol::ubx:
-      return device(
-          "ubx", {.baud = 38400, .latency_s = 0.050, .latency_std_s = 0.020, .rate_Hz = 1},
-          {.delivers = {.position = true, .velocity = true}, .options = {.fix = true}, .heading_if_chosen = true});
+      return device("ubx", {.baud = 38400, .latency_s = 0.050, .latency_std_s = 0.020, .rate_Hz = 1},
+                    {.delivers = {position, velocity}, .options = {.fix = true}, .heading_if_chosen = true});
     case Protocol::mip:
       return device("mip", {.baud = 115200, .latency_s = 0.003, .latency_std_s = 0.001, .rate_Hz = 100},
-                    {.delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
-                     .delivers_always = false});
+                    {.delivers = {heading, field, rates, acceleration}, .delivers_always = false});
     case Protocol::vectornav:
       return device("vectornav", {.baud = 115200, .latency_s = 0.003, .latency_std_s = 0.001, .rate_Hz = 40},
-                    {.delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
-                     .delivers_always = false});
+                    {.delivers = {heading, field, rates, acceleration}, .delivers_always = false});
     case Protocol::pni:
-      return device(
-          "pni", {.baud = 38400, .latency_s = 0.030, .latency_std_s = 0.005, .rate_Hz = 10},
-          {.delivers = {.heading = true, .field = true, .acceleration = true}, .delivers_always = false});
+      return device("pni", {.baud = 38400, .latency_s = 0.030, .latency_std_s = 0.005, .rate_Hz = 10},
+                    {.delivers = {heading, field, acceleration}, .delivers_always = false});
     case Protocol::pd0:
       // The ping rate of a Doppler log depends on the range to the bottom.
       return device(
           "pd0", {.baud = 115200, .latency_s = 0.100, .latency_std_s = 0.050},
-          {.delivers =
-               {.heading = true, .depth = true, .altitude = true, .bottom_velocity = true, .water_velocity = true},
-           .delivers_always = false});
+          {.delivers = {heading, depth, altitude, bottom_velocity, water_velocity}, .delivers_always = false});
     case Protocol::pd6:
-      return device(
-          "pd6", {.baud = 115200, .latency_s = 0.100, .latency_std_s = 0.050},
-          {.delivers = {.heading = true, .altitude = true, .bottom_velocity = true, .water_velocity = true},
-           .delivers_always = false});
+      return device("pd6", {.baud = 115200, .latency_s = 0.100, .latency_std_s = 0.050},
+                    {.delivers = {heading, altitude, bottom_velocity, water_velocity}, .delivers_always = false});
     case Protocol::water_linked:
       return device("waterlinked", {.baud = 115200, .latency_s = 0.100, .latency_std_s = 0.050},
-                    {.delivers = {.altitude = true, .bottom_velocity = true}, .delivers_always = false});
+                    {.delivers = {altitude, bottom_velocity}, .delivers_always = false});
     case Protocol::samples:
       // Whatever another program knows; it states the times of validity itself. No wire delays its lines.
       return device("samples", {.baud = 4'000'000, .latency_std_s = 0.010},
@@ -155,19 +148,20 @@ constexpr DeviceType device_row(Protocol protocol) {
     case Protocol::paroscientific:
       // As delivered it integrates for 0.67 s and sends the mean.
       return device("paroscientific", {.baud = 9600, .latency_s = 0.350, .latency_std_s = 0.100},
-                    {.delivers = {.depth = true}});
+                    {.delivers = {depth}});
     case Protocol::keller:
       // It answers when it is asked: the host paces it.
-      return device("keller", {.baud = 9600, .latency_s = 0.005, .latency_std_s = 0.005},
-                    {.delivers = {.depth = true}});
+      return device("keller", {.baud = 9600, .latency_s = 0.005, .latency_std_s = 0.005}, {.delivers = {depth}});
     case Protocol::described:
       // What a file describes (protocols/described/): of a single device, its description says what it delivers.
       return device("described", {.baud = 9600, .latency_std_s = 0.050},
                     {.delivers = kEverything, .delivers_always = false});
     case Protocol::mavlink:
       // The sensors behind an autopilot, most often through the network. It stamps as it sends.
-      return device("mavlink", {.baud = 4'000'000, .latency_std_s = 0.002},
-                    {.delivers = kOfAutopilot, .delivers_always = false});
+      return device(
+          "mavlink", {.baud = 4'000'000, .latency_std_s = 0.002},
+          {.delivers = {heading, field, rates, acceleration, depth, position, velocity, altitude, bottom_velocity},
+           .delivers_always = false});
   }
   return {};
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <charconv>
 #include <concepts>
 #include <optional>
 #include <string_view>
 
+#include "protocols/decimal.h"
 #include "protocols/nmea.h"
 #include "protocols/nmea_decimal.h"
 #include "protocols/nmea_position.h"
@@ -50,12 +50,8 @@ class FieldReader {
   std::optional<Number> count() {
     const std::string_view field = text();
     if (field.empty()) return std::nullopt;
-    Number number = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-    if (error != std::errc{} || end != field.data() + field.size()) {
-      refuse();
-      return std::nullopt;
-    }
+    const auto number = integer<Number>(field);
+    in_range_ = in_range_ && number;
     return number;
   }
   /// One character, 0 when empty.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reader of flat JSON objects (RFC 8259). A library is not used here: docs/libraries.md says why.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "protocols/decimal.h"
 #include "protocols/samples_line.h"
 
 namespace navcal::protocols::samples_line {
@@ -145,18 +145,11 @@ class Cursor {
 
 std::optional<double> number_of(const Member& member, Bounds bounds) {
   if (member.kind != Kind::number) return std::nullopt;
-  double value = 0;
-  const char* const last = member.value.data() + member.value.size();
-  const auto [end, error] = std::from_chars(member.value.data(), last, value);
-  if (error != std::errc{} || end != last || !(value >= bounds.min && value <= bounds.max)) return std::nullopt;
-  return value;
+  const auto value = real(member.value);
+  return value && *value >= bounds.min && *value <= bounds.max ? value : std::nullopt;
 }
 
-std::uint32_t hex_of(std::string_view digits) {
-  std::uint32_t value = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-  return value;
-}
+std::uint32_t hex_of(std::string_view digits) { return integer<std::uint32_t>(digits, 16).value_or(0); }
 
 void append_utf8(std::string& text, std::uint32_t point) {
   const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };

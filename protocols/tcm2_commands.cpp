@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <utility>
 
 #include "protocols/decimal.h"
 #include "protocols/tcm2_word.h"
@@ -14,18 +13,8 @@ namespace {
 
 constexpr FrameId kCommand{"COMMAND"};
 
-constexpr std::array<std::pair<Verb, std::string_view>, 10> kVerbs{{
-    {Verb::go, "go"},
-    {Verb::halt, "h"},
-    {Verb::sample, "s?"},
-    {Verb::heading, "c?"},
-    {Verb::inclination, "i?"},
-    {Verb::magnetometer, "m?"},
-    {Verb::temperature, "t?"},
-    {Verb::calibration_score, "lc?"},
-    {Verb::clear_calibration, "cc"},
-    {Verb::warm_restart, "ax"},
-}};
+/// In the order of Verb, without `set`.
+constexpr std::array<std::string_view, 10> kVerbs{"go", "h", "s?", "c?", "i?", "m?", "t?", "lc?", "cc", "ax"};
 
 /// Permitted values of a parameter: one of `letters`, or a number if there are none.
 struct Values {
@@ -79,7 +68,7 @@ std::vector<std::uint8_t> encode_command(const Command& command) {
     text.append(name_of(command.parameter)).append("=");
     text += command.letter != '\0' ? std::string(1, command.letter) : std::to_string(command.number);
   } else {
-    text = kVerbs[static_cast<std::size_t>(command.verb)].second;
+    text = kVerbs[static_cast<std::size_t>(command.verb)];
   }
   text += '\r';
   return {text.begin(), text.end()};
@@ -89,8 +78,8 @@ std::variant<Command, Refusal> parse_command(std::string_view line) {
   const auto is_end = [](char c) { return c == '\r' || c == '\n'; };
   while (!line.empty() && is_end(line.back())) line.remove_suffix(1);
   while (!line.empty() && is_end(line.front())) line.remove_prefix(1);
-  for (const auto& [verb, text] : kVerbs) {
-    if (line == text) return Command{verb};
+  for (std::size_t i = 0; i < kVerbs.size(); ++i) {
+    if (line == kVerbs[i]) return Command{static_cast<Verb>(i)};
   }
   const std::size_t equals = line.find('=');
   if (equals != std::string_view::npos) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <optional>
@@ -22,10 +21,8 @@ namespace navcal::protocols {
     text.remove_prefix(1);
     if (text.starts_with('-')) return std::nullopt;
   }
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto value = real(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// How a number is printed: filled up with zeros to `digits` before the point, with `+` where it is not negative.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/utc.h"
 
-#include <charconv>
 #include <chrono>
+
+#include "protocols/decimal.h"
 
 namespace navcal::protocols {
 namespace {
@@ -24,12 +25,6 @@ Date date_of_day(std::chrono::sys_days day) {
 std::chrono::sys_days day_of(std::int64_t unix_ns) {
   return std::chrono::floor<std::chrono::days>(
       std::chrono::sys_time<std::chrono::nanoseconds>(std::chrono::nanoseconds(unix_ns)));
-}
-
-template <class Number>
-bool read(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && end == text.data() + text.size();
 }
 
 }  // namespace
@@ -56,13 +51,11 @@ TimeOfDay time_of_day(std::int64_t unix_ns) {
 }
 
 std::optional<Date> parse_iso_date(std::string_view text) {
-  Date date;
   if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
-  if (!read(text.substr(0, 4), date.year) || !read(text.substr(5, 2), date.month) ||
-      !read(text.substr(8, 2), date.day) || !is_valid(date)) {
-    return std::nullopt;
-  }
-  return date;
+  const auto year = integer<std::uint16_t>(text.substr(0, 4));
+  const auto month = integer<std::uint8_t>(text.substr(5, 2)), day = integer<std::uint8_t>(text.substr(8, 2));
+  const Date date{year.value_or(0), month.value_or(0), day.value_or(0)};
+  return is_valid(date) ? std::optional(date) : std::nullopt;
 }
 
 CorrectedDate correct_rollover(const Date& date, const Date& pivot) {

@@ -86,18 +86,12 @@ std::vector<Point> outline(const calib::FieldCorrection& correction, double size
 
 SvgPlot square_plot(std::string_view title, int across, int up, const std::vector<Point>& points,
                     const std::vector<Point>& line) {
-  std::vector<double> x{0}, y{0}, line_x{0}, line_y{0};
-  for (const Point& point : points) {
-    x.push_back(point.x);
-    y.push_back(point.y);
-  }
-  for (const Point& point : line) {
-    line_x.push_back(point.x);
-    line_y.push_back(point.y);
-  }
   // Readings may have outliers; the outline has none.
-  const auto both = [](Range a, Range b) { return Range{std::min(a.least, b.least), std::max(a.most, b.most)}; };
-  Range rx = both(range_of(x), whole_range_of(line_x)), ry = both(range_of(y), whole_range_of(line_y));
+  const auto range = [&](double Point::*axis) {
+    const Range a = range_of(coordinates(axis, kZero, points)), b = whole_range_of(coordinates(axis, kZero, line));
+    return Range{std::min(a.least, b.least), std::max(a.most, b.most)};
+  };
+  Range rx = range(&Point::x), ry = range(&Point::y);
   make_equally_long(rx, ry);
   const double height = kSide - SvgPlot::kLeft - SvgPlot::kRight + SvgPlot::kTop + SvgPlot::kBottom;
   return {title,
@@ -132,15 +126,11 @@ double spread_percent(const std::vector<Eigen::Vector3d>& fields) {
 Figure size_figure(const Fields& fields, bool level) {
   const TimeAxis time(fields.time_s);
   std::vector<Point> before, after;
-  std::vector<double> heights;
   for (std::size_t i = 0; i < fields.before.size(); i += fields.before.size() / kMostFieldDots + 1) {
     before.push_back({time(fields.time_s[i]), fields.before[i].norm()});
-    heights.push_back(before.back().y);
-    if (fields.after.empty()) continue;
-    after.push_back({time(fields.time_s[i]), fields.after[i].norm()});
-    heights.push_back(after.back().y);
+    if (!fields.after.empty()) after.push_back({time(fields.time_s[i]), fields.after[i].norm()});
   }
-  SvgPlot plot("Size of the field", time.axis(), {"uT", range_of(heights)});
+  SvgPlot plot("Size of the field", time.axis(), {"uT", range_of(coordinates(&Point::y, before, after))});
   plot.points(Ink::before, "measured", before);
   plot.points(Ink::after, "calibrated", after);
   std::string caption = fmt::format("{} field. Spread, its standard deviation over its mean: {:.2f} % as measured",

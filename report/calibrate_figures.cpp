@@ -34,13 +34,6 @@ std::vector<Point> over_heading(const std::vector<analysis::HeadingResidual>& re
   return points;
 }
 
-Range range_of(const std::vector<Point>& some, const std::vector<Point>& others) {
-  std::vector<double> heights;
-  for (const auto* const points : {&some, &others})
-    for (const Point& point : *points) heights.push_back(point.y);
-  return report::range_of(heights);
-}
-
 /// Standard error of the deviation at a heading, from the whole covariance of B..E.
 double deviation_std_rad(const calib::CalibratorReport& compass, double heading_rad) {
   const Eigen::Vector4d f(std::sin(heading_rad), std::cos(heading_rad), std::sin(2 * heading_rad),
@@ -84,7 +77,8 @@ std::optional<Figure> deviation_figure(const calib::Report& report,
     upper.push_back({double(degrees), (by_rad + band_rad) * base::kDegreesPerRadian});
   }
   const auto measured = over_heading(residuals, &analysis::HeadingResidual::deviation_rad);
-  SvgPlot plot("Deviation of the compass", kHeadingAxis, {"deviation, degrees", range_of(curve, measured)});
+  SvgPlot plot("Deviation of the compass", kHeadingAxis,
+               {"deviation, degrees", range_of(coordinates(&Point::y, curve, measured))});
   plot.level(0);
   plot.points(Ink::before, "measured against the gyro", measured);
   plot.band(Ink::after, "two standard errors", lower, upper);
@@ -99,7 +93,8 @@ std::optional<Figure> residual_figure(const calib::Report& report,
   if (residuals.empty()) return std::nullopt;
   const auto before = over_heading(residuals, &analysis::HeadingResidual::before_rad);
   const auto after = over_heading(residuals, &analysis::HeadingResidual::after_rad);
-  SvgPlot plot("Heading against the gyro", kHeadingAxis, {"residual, degrees", range_of(before, after)});
+  SvgPlot plot("Heading against the gyro", kHeadingAxis,
+               {"residual, degrees", range_of(coordinates(&Point::y, before, after))});
   plot.level(0);
   plot.points(Ink::before, "as measured", before);
   plot.points(Ink::after, "calibrated", after);

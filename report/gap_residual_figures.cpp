@@ -27,14 +27,6 @@ std::vector<Point> paired(const std::vector<double>& x, const std::vector<double
   return points;
 }
 
-std::vector<double> heights(const std::vector<Point>& before, const std::vector<Point>& after) {
-  std::vector<double> values{0};
-  for (const auto* points : {&before, &after}) {
-    for (const Point& point : *points) values.push_back(point.y);
-  }
-  return values;
-}
-
 /// Means of groups of equal size, from left to right.
 std::vector<Point> trend(std::vector<Point> points) {
   std::erase_if(points, [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
@@ -59,7 +51,7 @@ Figure course_figure(const gap::Course& course) {
   for (const double time_s : course.time_s) times.push_back(time(time_s));
   const auto before = paired(times, course.before), after = paired(times, course.after);
   SvgPlot plot(course.channel, time.axis(),
-               {with_unit("residual", course.unit), whole_range_of(heights(before, after))});
+               {with_unit("residual", course.unit), whole_range_of(coordinates(&Point::y, kZero, before, after))});
   plot.level(0);
   plot.line(Ink::before, "before", before);
   plot.line(Ink::after, "after", after);
@@ -75,7 +67,7 @@ std::optional<Figure> scatter_figure(const gap::Diagnosis& diagnosis) {
   const auto after = paired(scatter.driver_value, scatter.after);
   const std::string driver = spaced(scatter.driver), title = scatter.channel + " against " + driver;
   SvgPlot plot(title, {with_unit(driver, scatter.driver_unit), range_of(scatter.driver_value)},
-               {with_unit("residual", scatter.unit), range_of(heights(before, after))});
+               {with_unit("residual", scatter.unit), range_of(coordinates(&Point::y, kZero, before, after))});
   plot.points(Ink::before, "before", before);
   plot.points(Ink::after, "after", after);
   plot.level(0);

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "base/line_reader.h"
 #include "gap/thresholds.h"
 #include "report/calibrate_words.h"
 #include "report/shown_number.h"
@@ -263,8 +264,7 @@ NameAndUnit name_and_unit(std::string_view parameter) {
   NameAndUnit split;
   bool per = false;
   while (!parameter.empty()) {
-    const std::string_view word = parameter.substr(0, parameter.find('_'));
-    parameter.remove_prefix(std::min(word.size() + 1, parameter.size()));
+    const std::string_view word = base::take_until(parameter, "_");
     if (word == "per") {
       per = true;
     } else if (is_unit(word)) {

@@ -57,12 +57,8 @@ Figure course_figure(std::string_view title, const char* unit, const gap::Planne
                      const std::vector<double>& values, double scale, std::string caption) {
   const TimeAxis time(path.time_s);
   std::vector<Point> line;
-  std::vector<double> shown;
-  for (std::size_t i = 0; i < path.time_s.size(); ++i) {
-    shown.push_back(scale * values[i]);
-    line.push_back({time(path.time_s[i]), shown.back()});
-  }
-  SvgPlot plot(title, time.axis(), {unit, whole_range_of(shown)});
+  for (std::size_t i = 0; i < path.time_s.size(); ++i) line.push_back({time(path.time_s[i]), scale * values[i]});
+  SvgPlot plot(title, time.axis(), {unit, whole_range_of(coordinates(&Point::y, line))});
   plot.line(Ink::after, "", line);
   return {std::string(title), plot.svg(), std::move(caption)};
 }

@@ -3,18 +3,24 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "base/angles.h"
+#include "record/json/put_members.h"
 #include "report/next_mission.h"
 #include "report/wrapped_text.h"
+
+namespace navcal::gap {
+
+NAVCAL_JSON_MEMBERS(PlannedPair, a, b, separation_nats, reverse_nats)
+NAVCAL_JSON_MEMBERS(PlannedSet, effects, probability)
+NAVCAL_JSON_MEMBERS(DetectableStrength, effect, parameter, before, after)
+
+}  // namespace navcal::gap
 
 namespace navcal::report {
 namespace {
 
 using PlanJson = nlohmann::ordered_json;
-
-PlanJson plan_number(const std::optional<double>& value) { return value ? PlanJson(*value) : PlanJson(); }
 
 PlanJson json_of_extremes(const gap::PathExtremes& extremes) {
   return {{"depth_m", {extremes.least_depth_m, extremes.greatest_depth_m}},
@@ -22,40 +28,20 @@ PlanJson json_of_extremes(const gap::PathExtremes& extremes) {
           {"speed_m_s", extremes.speed_m_s},
           {"shaft_rpm", extremes.shaft_rps ? PlanJson(60 * *extremes.shaft_rps) : PlanJson()},
           {"turn_deg_s", extremes.turn_rad_s * base::kDegreesPerRadian},
-          {"energy_Wh", plan_number(extremes.energy_Wh)}};
+          {"energy_Wh", extremes.energy_Wh}};
 }
 
 }  // namespace
 
 std::string next_mission_json(const gap::NextMission& next, const NextMissionSource& source) {
-  PlanJson pairs = PlanJson::array(), sets = PlanJson::array(), strengths = PlanJson::array();
-  for (const auto& pair : next.pairs) {
-    pairs.push_back({{"a", pair.a},
-                     {"b", pair.b},
-                     {"separation_nats", pair.separation_nats},
-                     {"reverse_nats", pair.reverse_nats}});
-  }
-  for (const auto& set : next.sets) sets.push_back({{"effects", set.effects}, {"probability", set.probability}});
-  for (const auto& each : next.strengths) {
-    strengths.push_back({{"effect", each.effect},
-                         {"parameter", each.parameter},
-                         {"before", plan_number(each.before)},
-                         {"after", plan_number(each.after)}});
-  }
-  const PlanJson json{{"mission", source.mission},
-                      {"minutes", next.minutes()},
-                      {"decides", next.decides},
-                      {"probability_exact", next.probability_exact},
-                      {"pairs", std::move(pairs)},
-                      {"sentence", next.sentence},
-                      {"purpose", gap::name_of(next.purpose)},
-                      {"sets", std::move(sets)},
-                      {"newly_covered", next.newly_covered},
-                      {"smallest_strengths", std::move(strengths)},
-                      {"manoeuvres", next.manoeuvres},
-                      {"extremes", json_of_extremes(next.extremes)},
-                      {"remarks", next.remarks},
-                      {"seconds", next.seconds}};
+  PlanJson json{{"mission", source.mission}, {"minutes", next.minutes()}};
+  NAVCAL_PUT_MEMBERS(json, next, decides, probability_exact, pairs, sentence);
+  json["purpose"] = gap::name_of(next.purpose);
+  NAVCAL_PUT_MEMBERS(json, next, sets, newly_covered);
+  json["smallest_strengths"] = next.strengths;
+  json["manoeuvres"] = next.manoeuvres;
+  json["extremes"] = json_of_extremes(next.extremes);
+  NAVCAL_PUT_MEMBERS(json, next, remarks, seconds);
   return json.dump(-1, ' ', false, PlanJson::error_handler_t::replace);
 }
 

@@ -52,12 +52,9 @@ Point log_point(double x, double y) {
 Figure readings_figure(const RecordedChannel& recorded, const analysis::NoiseReport& report) {
   const auto& [time_s, values] = recorded.series;
   std::vector<Point> points;
-  std::vector<double> shown;
-  for (std::size_t i = 0; i < values.size(); i += values.size() / kMostReadings + 1) {
+  for (std::size_t i = 0; i < values.size(); i += values.size() / kMostReadings + 1)
     points.push_back({time_s[i], values[i]});
-    shown.push_back(values[i]);
-  }
-  const Range y = whole_range_of(shown);
+  const Range y = whole_range_of(coordinates(&Point::y, points));
   SvgPlot plot(recorded.name(), {"seconds from the beginning", {0, std::max(report.duration_s, 1e-3)}},
                {recorded.unit, y});
   std::string name = report.chosen ? "chosen" : "at rest";

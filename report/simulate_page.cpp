@@ -109,13 +109,8 @@ std::vector<Point> fixes_of(const emulation::SimulatedSeries& series, const sim:
 Figure track(const emulation::SimulatedSeries& series, const sim::Origin& origin) {
   constexpr double kTrackSide = 460, kLeastLength_m = 2;
   std::vector<Point> way;
-  std::vector<double> easts, norths;
-  for (const auto& state : series.states) {
-    way.push_back({state.value.position_m[1], state.value.position_m[0]});
-    easts.push_back(way.back().x);
-    norths.push_back(way.back().y);
-  }
-  Range east = whole_range_of(easts), north = whole_range_of(norths);
+  for (const auto& state : series.states) way.push_back({state.value.position_m[1], state.value.position_m[0]});
+  Range east = whole_range_of(coordinates(&Point::x, way)), north = whole_range_of(coordinates(&Point::y, way));
   make_equally_long(east, north, kLeastLength_m);
   SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kTrackSide, kTrackSide});
   const auto fixes = fixes_of(series, origin);

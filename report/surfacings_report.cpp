@@ -32,19 +32,13 @@ std::string first_fix_text(std::int64_t utc_ns) {
 
 nlohmann::json json_of(const analysis::RecordedSurfacing& found) {
   const auto& surfacing = found.surfacing;
-  return {{"file", found.file},
-          {"time", static_cast<double>(found.first_fix_utc_ns) * 1e-9},
-          {"without_fix_s", surfacing.without_fix_s()},
-          {"submerged_s", surfacing.submerged_s()},
-          {"deepest_m", surfacing.deepest_m},
-          {"ttff_s", surfacing.time_to_first_fix_s()},
-          {"visible", surfacing.visible},
-          {"tracked", surfacing.tracked},
-          {"dop", surfacing.dop},
-          {"distance_m", found.distance_m},
-          {"error_m", found.error_m},
-          {"std_m", found.std_m},
-          {"error_uncalibrated_m", found.error_uncalibrated_m}};
+  nlohmann::json json{{"time", static_cast<double>(found.first_fix_utc_ns) * 1e-9},
+                      {"without_fix_s", surfacing.without_fix_s()},
+                      {"submerged_s", surfacing.submerged_s()},
+                      {"ttff_s", surfacing.time_to_first_fix_s()}};
+  NAVCAL_PUT_MEMBERS(json, surfacing, deepest_m, visible, tracked, dop);
+  NAVCAL_PUT_MEMBERS(json, found, file, distance_m, error_m, std_m, error_uncalibrated_m);
+  return json;
 }
 
 using SurfacingInk = SvgPlot::Ink;
@@ -95,15 +89,9 @@ Figure ttff_against_submerged(const std::vector<Point>& points, const devices::G
 }
 
 Figure error_against_time(const std::vector<Point>& errors, const std::vector<Point>& stated) {
-  std::vector<double> times_s{0}, metres{0};
-  for (const auto* points : {&errors, &stated}) {
-    for (const Point& point : *points) {
-      times_s.push_back(point.x);
-      metres.push_back(point.y);
-    }
-  }
-  SvgPlot plot("Error of the dead reckoning", {"time without a fix, s", whole_range_of(times_s)},
-               {"distance to the first fix, m", whole_range_of(metres)});
+  const auto range = [&](double Point::*axis) { return whole_range_of(coordinates(axis, kZero, errors, stated)); };
+  SvgPlot plot("Error of the dead reckoning", {"time without a fix, s", range(&Point::x)},
+               {"distance to the first fix, m", range(&Point::y)});
   plot.points(SurfacingInk::second, "stated standard error", stated);
   plot.points(SurfacingInk::first, "measured", errors);
   return {"Growth of the position error", plot.svg(),
@@ -127,11 +115,12 @@ SurfacingStatistics statistics_of(const std::vector<analysis::RecordedSurfacing>
   statistics.with_ttff = times_s.size();
   if (!times_s.empty()) {
     std::sort(times_s.begin(), times_s.end());
-    statistics.least_s = validation::quantile(times_s, 0);
-    statistics.longest_s = validation::quantile(times_s, 1);
-    statistics.median_s = validation::quantile(times_s, 0.5);
-    statistics.p90_s = validation::quantile(times_s, 0.9);
-    statistics.mean_s = std::accumulate(times_s.begin(), times_s.end(), 0.0) / static_cast<double>(times_s.size());
+    statistics.ttff_least_s = validation::quantile(times_s, 0);
+    statistics.ttff_longest_s = validation::quantile(times_s, 1);
+    statistics.ttff_median_s = validation::quantile(times_s, 0.5);
+    statistics.ttff_p90_s = validation::quantile(times_s, 0.9);
+    statistics.ttff_mean_s =
+        std::accumulate(times_s.begin(), times_s.end(), 0.0) / static_cast<double>(times_s.size());
   }
   if (statistics.with_error > 0)
     statistics.error_over_std = std::sqrt(squares / static_cast<double>(statistics.with_error));
@@ -165,10 +154,11 @@ std::vector<std::string> surfacing_sentences(const SurfacingStatistics& statisti
         fmt::format("The time of surfacing is not known for {}: there is no reading of a depth gauge.",
                     statistics.count - statistics.with_ttff));
   }
-  if (statistics.median_s) {
+  if (statistics.ttff_median_s) {
     sentences.push_back(fmt::format(
         "Time to first fix: median {:.1f} s, mean {:.1f} s, 90 % within {:.1f} s, from {:.1f} to {:.1f} s.",
-        *statistics.median_s, *statistics.mean_s, *statistics.p90_s, *statistics.least_s, *statistics.longest_s));
+        *statistics.ttff_median_s, *statistics.ttff_mean_s, *statistics.ttff_p90_s, *statistics.ttff_least_s,
+        *statistics.ttff_longest_s));
   }
   if (statistics.error_over_std) {
     sentences.push_back(
@@ -194,19 +184,9 @@ std::string surfacings_json(const std::vector<analysis::RecordedSurfacing>& surf
   auto list = nlohmann::json::array();
   for (const auto& found : surfacings) list.push_back(json_of(found));
   const SurfacingStatistics statistics = statistics_of(surfacings);
-  const nlohmann::json json{{"class", "SURFACINGS"},
-                            {"files", files},
-                            {"surfacings", list},
-                            {"statistics",
-                             {{"count", statistics.count},
-                              {"with_ttff", statistics.with_ttff},
-                              {"ttff_least_s", statistics.least_s},
-                              {"ttff_median_s", statistics.median_s},
-                              {"ttff_mean_s", statistics.mean_s},
-                              {"ttff_p90_s", statistics.p90_s},
-                              {"ttff_longest_s", statistics.longest_s},
-                              {"with_error", statistics.with_error},
-                              {"error_over_std", statistics.error_over_std}}}};
+  nlohmann::json json{{"class", "SURFACINGS"}, {"files", files}, {"surfacings", list}};
+  NAVCAL_PUT_MEMBERS(json["statistics"], statistics, count, with_ttff, ttff_least_s, ttff_median_s, ttff_mean_s,
+                     ttff_p90_s, ttff_longest_s, with_error, error_over_std);
   return json.dump() + '\n';
 }
 

@@ -14,7 +14,7 @@ namespace navcal::report {
 struct SurfacingStatistics {
   std::size_t count = 0;
   std::size_t with_ttff = 0;  ///< whose time of surfacing is known
-  std::optional<double> least_s, median_s, mean_s, p90_s, longest_s;
+  std::optional<double> ttff_least_s, ttff_median_s, ttff_mean_s, ttff_p90_s, ttff_longest_s;
   std::size_t with_error = 0;
   /// Root of the mean square of error over stated standard error: about 1 when the statement is right, below 1
   /// when the true errors are smaller.

@@ -21,6 +21,19 @@ struct Range {
   [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
 };
 
+/// One coordinate (&Point::x, &Point::y) of all points of these lists.
+template <class... Lists>
+[[nodiscard]] std::vector<double> coordinates(double Point::*axis, const Lists&... lists) {
+  std::vector<double> values;
+  const auto add = [&](std::span<const Point> points) {
+    for (const Point& point : points) values.push_back(point.*axis);
+  };
+  (add(lists), ...);
+  return values;
+}
+/// Of a list whose range shall include zero.
+inline constexpr std::array<Point, 1> kZero{};
+
 /// Range of all finite values except outliers and the outermost few in a thousand on either side; with a margin;
 /// never empty.
 [[nodiscard]] Range range_of(std::vector<double> values);

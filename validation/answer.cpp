@@ -54,8 +54,7 @@ std::vector<TrialFinding> findings_of(const Json& list, std::vector<std::string>
     const auto same = [&](const TrialFinding& other) { return other.name == finding->name; };
     if (std::any_of(findings.begin(), finding, same)) fail(finding->name + " is named twice");
   }
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(findings, [](const auto& a, const auto& b) { return a.probability > b.probability; });
   return findings;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/enum_name.h"
+#include "base/line_reader.h"
 #include "base/text_rows.h"
 #include "sim/effects/effect_table.h"
 #include "validation/reference/effects.h"
@@ -27,8 +28,7 @@ std::vector<Words> rows_of(std::string_view key) {
   for (auto [first, words] : base::text_rows(signature_rows(), ": ")) {
     if (first != key) continue;
     found.emplace_back();
-    for (; !words.empty(); words.remove_prefix(std::min(words.size(), found.back().back().size() + 1)))
-      found.back().push_back(words.substr(0, words.find(' ')));
+    while (!words.empty()) found.back().push_back(base::take_until(words, " "));
   }
   return found;
 }

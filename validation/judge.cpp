@@ -14,18 +14,15 @@ namespace {
 constexpr double kLeastBet = 0.05;
 
 bool holds(const std::vector<TrialEffect>& effects, std::string_view full_name) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [&](const auto& effect) { return is_same(effect, full_name); });
+  return std::ranges::any_of(effects, [&](const auto& effect) { return is_same(effect, full_name); });
 }
 
 bool holds(const std::vector<TrialFinding>& findings, const TrialEffect& effect) {
-  return std::any_of(findings.begin(), findings.end(),
-                     [&](const auto& finding) { return is_same(effect, finding.name); });
+  return std::ranges::any_of(findings, [&](const auto& finding) { return is_same(effect, finding.name); });
 }
 
 bool is_twin(const TrialAnswer& answer, const TrialEffect& effect) {
-  return std::any_of(answer.twins.begin(), answer.twins.end(),
-                     [&](const std::string& twin) { return is_same(effect, twin); });
+  return std::ranges::any_of(answer.twins, [&](const std::string& twin) { return is_same(effect, twin); });
 }
 
 template <class List>
@@ -37,13 +34,11 @@ TrialOutcome outcome_of(const TrialCase& drawn, const TrialAnswer& answer) {
   if (answer.verdict == TrialVerdict::no_gap) return TrialOutcome::no_gap;
   if (answer.verdict == TrialVerdict::unknown) return TrialOutcome::unknown;
   if (answer.verdict == TrialVerdict::cannot_say) return TrialOutcome::cannot_say;
-  const auto all_named = [&](auto condition) {
-    return std::all_of(answer.effects.begin(), answer.effects.end(), condition);
-  };
+  const auto all_named = [&](auto condition) { return std::ranges::all_of(answer.effects, condition); };
   if (drawn.in_library() && all_named([&](const TrialFinding& f) { return holds(drawn.effects, f.name); }))
     return answer.effects.size() == drawn.effects.size() ? TrialOutcome::exact : TrialOutcome::part;
   const auto in_class = [&](const TrialFinding& finding) {
-    return std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const TrialEffect& effect) {
+    return std::ranges::any_of(drawn.effects, [&](const TrialEffect& effect) {
       return is_confounded(effect, finding.name) || is_twin(answer, effect);
     });
   };
@@ -69,7 +64,7 @@ bool right_for(TrialArm arm, const TrialJudgement& judgement) {
 void judge_names(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgement& judgement) {
   const auto& ranked = answer.effects.empty() ? answer.candidates : answer.effects;
   judgement.top_right = !ranked.empty() && holds(drawn.effects, ranked.front().name);
-  judgement.truth_considered = std::all_of(drawn.effects.begin(), drawn.effects.end(), [&](const auto& effect) {
+  judgement.truth_considered = std::ranges::all_of(drawn.effects, [&](const auto& effect) {
     return holds(answer.effects, effect) || holds(answer.candidates, effect) || is_twin(answer, effect);
   });
 }
@@ -78,21 +73,19 @@ void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
   // Signatures are those of the reference vehicle.
   if (answer.verdict == TrialVerdict::no_gap || drawn.on_layout != nullptr) return;
   const auto is_first = [&](const std::vector<std::string>& named, auto TrialSignature::*right) {
-    return !named.empty() &&
-           std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const TrialEffect& effect) {
-             const TrialSignature* signature = signature_of(effect.name);
-             return signature != nullptr && contains(signature->*right, named.front());
-           });
+    return !named.empty() && std::ranges::any_of(drawn.effects, [&](const TrialEffect& effect) {
+      const TrialSignature* signature = signature_of(effect.name);
+      return signature != nullptr && contains(signature->*right, named.front());
+    });
   };
   judgement.channel_right = is_first(answer.channels, &TrialSignature::channels);
   if (drawn.arm == TrialArm::foreign) {
-    judgement.family_right =
-        std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const TrialEffect& effect) {
-          const TrialSignature* signature = signature_of(effect.name);
-          return signature != nullptr &&
-                 std::any_of(answer.families.begin(), answer.families.end(),
-                             [&](const std::string& family) { return contains(signature->families, family); });
-        });
+    judgement.family_right = std::ranges::any_of(drawn.effects, [&](const TrialEffect& effect) {
+      const TrialSignature* signature = signature_of(effect.name);
+      return signature != nullptr && std::ranges::any_of(answer.families, [&](const std::string& family) {
+               return contains(signature->families, family);
+             });
+    });
   }
   judgement.source_right = is_first(answer.sources, &TrialSignature::sources);
 }
@@ -119,8 +112,7 @@ void judge_probabilities(const TrialCase& drawn, const TrialAnswer& answer, Tria
     judgement.bets.push_back({finding.probability, holds(drawn.effects, finding.name)});
   for (const TrialFinding& finding : answer.candidates) {
     const auto is_named = [&](const TrialFinding& other) { return other.name == finding.name; };
-    if (finding.probability < kLeastBet || std::any_of(answer.effects.begin(), answer.effects.end(), is_named))
-      continue;
+    if (finding.probability < kLeastBet || std::ranges::any_of(answer.effects, is_named)) continue;
     judgement.bets.push_back({finding.probability, holds(drawn.effects, finding.name)});
   }
 }

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <ranges>
 #include <sstream>
 #include <stdexcept>
 
 #include "base/failure.h"
+#include "record/json/put_members.h"
 #include "validation/recordings.h"
 #include "validation/reference/effects.h"
 #include "validation/reference/thrusters/outputs.h"
@@ -115,22 +115,14 @@ ordered_json json_of(const thrusters::Plan& real, const thrusters::Plan& layout)
 
 std::string vehicle_truth(const LayoutVehicle& vehicle, const LayoutTrial& trial) {
   const thrusters::Nature& nature = vehicle.craft.nature;
-  const ordered_json truth{{"number", vehicle.number},
-                           {"layout", vehicle.layout.name},
-                           {"layout_error", trial.layout_error},
-                           {"unmodelled", trial.unmodelled},
-                           {"day_tolerance", kDayTolerance},
-                           {"real", json_of(vehicle.craft.real, vehicle.craft.layout)},
-                           {"nature",
-                            {{"resistance", nature.resistance},
-                             {"overshoot", nature.overshoot},
-                             {"jet_loss", nature.jet_loss},
-                             {"strips", nature.strips},
-                             {"current_m_s", nature.current_m_s},
-                             {"wave_m", nature.wave_m},
-                             {"doppler_scale", vehicle.craft.doppler.scale},
-                             {"compass_clock", vehicle.craft.compass_clock},
-                             {"card_clock", vehicle.craft.card_clock}}}};
+  ordered_json truth{{"number", vehicle.number}, {"layout", vehicle.layout.name}};
+  NAVCAL_PUT_MEMBERS(truth, trial, layout_error, unmodelled);
+  truth["day_tolerance"] = kDayTolerance;
+  truth["real"] = json_of(vehicle.craft.real, vehicle.craft.layout);
+  ordered_json& by_nature = truth["nature"];
+  NAVCAL_PUT_MEMBERS(by_nature, nature, resistance, overshoot, jet_loss, strips, current_m_s, wave_m);
+  by_nature["doppler_scale"] = vehicle.craft.doppler.scale;
+  NAVCAL_PUT_MEMBERS(by_nature, vehicle.craft, compass_clock, card_clock);
   return truth.dump();
 }
 

@@ -160,8 +160,7 @@ class CaseQueue {
 
   [[nodiscard]] TrialRun finish() {
     (void)ends_early();
-    std::sort(run_.results.begin(), run_.results.end(),
-              [](const auto& a, const auto& b) { return a.drawn.number < b.drawn.number; });
+    std::ranges::sort(run_.results, [](const auto& a, const auto& b) { return a.drawn.number < b.drawn.number; });
     return std::move(run_);
   }
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "base/line_reader.h"
 #include "web/http.h"
 
 namespace navcal::web {
@@ -99,10 +100,7 @@ std::string read_token(const std::filesystem::path& file) {
   std::ifstream in = open_secret(file);
   std::string token;
   if (!in || !std::getline(in, token)) throw failed("it cannot be read, or is empty");
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const auto begin = token.find_first_not_of(kBlanks);
-  token = begin == std::string::npos ? std::string()
-                                     : token.substr(begin, token.find_last_not_of(kBlanks) - begin + 1);
+  token = std::string(base::trimmed(token));
   if (token.size() < kMinToken)
     throw failed("the token has " + std::to_string(token.size()) + " characters, at least " +
                  std::to_string(kMinToken) + " are needed");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/message_fields.h"
 
-#include <charconv>
+#include "protocols/decimal.h"
 
 namespace navcal::web {
 namespace {
@@ -31,11 +31,7 @@ std::string_view member_text(std::string_view message, std::string_view key) {
 }
 
 std::optional<double> member_number(std::string_view message, std::string_view key) {
-  const std::string_view text = member_text(message, key);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  return protocols::real(member_text(message, key));
 }
 
 }  // namespace navcal::web

@@ -149,10 +149,9 @@ Finding motor_finding(const AuditedLog& log) {
   const auto* const report = log.whole.report.find(Calibrator::motor_current);
   const auto currents = log.all("current");
   if (report == nullptr || currents.empty()) {
-    finding.certainty = Certainty::cannot_say;
-    finding.sentence = "The log has no current of a motor beside field and rates.";
-    finding.todo = "Log the current of the motors; a map names it as motor_current (--map, docs/import.md).";
-    return finding;
+    return finding.cannot(
+        "The log has no current of a motor beside field and rates.",
+        "Log the current of the motors; a map names it as motor_current (--map, docs/import.md).");
   }
   const auto& slope = log.whole.report.estimates.motor_current;
   if (!slope) return refused(finding, *report);

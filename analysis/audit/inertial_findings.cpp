@@ -128,9 +128,8 @@ void append_at_rest(std::vector<Finding>& findings, const AuditedLog& log) {
         judge_bias(finding, *bias, true,
                    axis == std::string_view("rate_z") || axis == std::string_view("yaw_rate_b"), log);
       } else {
-        finding.certainty = Certainty::cannot_say;
-        finding.sentence = "The vehicle was not at rest for ten seconds.";
-        finding.todo = "Leave the vehicle still for half a minute before and after the mission.";
+        finding = finding.cannot("The vehicle was not at rest for ten seconds.",
+                                 "Leave the vehicle still for half a minute before and after the mission.");
       }
     }
   }

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <ctime>
 #include <optional>
 
 #include "analysis/import/csv_samples.h"
 #include "base/line_reader.h"
+#include "protocols/decimal.h"
 #include "record/recording.h"
 
 namespace navcal::analysis {
@@ -135,10 +135,8 @@ bool CsvFile::next_line() {
 
 std::size_t CsvFile::place_of(const std::string& name) const {
   if (map_.header == 0) {
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-    if (error == std::errc{} && end == name.data() + name.size() && number >= 1 && number <= 10'000)
-      return number - 1;
+    const auto number = protocols::integer<std::size_t>(name).value_or(0);
+    if (number >= 1 && number <= 10'000) return number - 1;
     throw record::BadRecording(
         fmt::format("the map's column \"{}\": a number is expected, since there is no header", name));
   }
@@ -172,10 +170,8 @@ std::optional<double> CsvFile::number(std::string_view cell) {
     cell = text_;
   }
   if (cell.starts_with('+')) cell.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto value = protocols::real(cell);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<std::int64_t> CsvFile::time_ns() {

@@ -4,67 +4,59 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
+
+#include "base/line_reader.h"
 
 namespace navcal::analysis::dataflash {
 namespace {
 
 constexpr std::uint8_t kFormatType = 128;
 
-/// Bytes of a field by its format character; 0 for an unknown one.
-std::size_t size_of(char format) {
-  switch (format) {
-    case 'b':
-    case 'B':
-    case 'M': return 1;
-    case 'h':
-    case 'H':
-    case 'c':
-    case 'C':
-    case 'g': return 2;
-    case 'i':
-    case 'I':
-    case 'e':
-    case 'E':
-    case 'L':
-    case 'f':
-    case 'n': return 4;
-    case 'd':
-    case 'q':
-    case 'Q': return 8;
-    case 'N': return 16;
-    case 'Z':
-    case 'a': return 64;
-    default: return 0;
-  }
-}
+enum class Number : std::uint8_t { none, whole, natural, real };
+
+/// Field of a format character.
+struct Format {
+  std::size_t bytes = 0;  ///< 0: the character is unknown
+  Number number = Number::none;
+  double factor = 1;  ///< that the character itself implies, in a log without multipliers
+};
+
+constexpr std::array<Format, 256> kFormats = [] {
+  using enum Number;
+  constexpr std::pair<char, Format> kKnown[] = {{'b', {1, whole}},
+                                                {'B', {1, natural}},
+                                                {'M', {1, natural}},
+                                                {'h', {2, whole}},
+                                                {'H', {2, natural}},
+                                                {'c', {2, whole, 1e-2}},
+                                                {'C', {2, natural, 1e-2}},
+                                                {'g', {2}},
+                                                {'i', {4, whole}},
+                                                {'I', {4, natural}},
+                                                {'e', {4, whole, 1e-2}},
+                                                {'E', {4, natural, 1e-2}},
+                                                {'L', {4, whole, 1e-7}},
+                                                {'f', {4, real}},
+                                                {'n', {4}},
+                                                {'d', {8, real}},
+                                                {'q', {8, whole}},
+                                                {'Q', {8, natural}},
+                                                {'N', {16}},
+                                                {'Z', {64}},
+                                                {'a', {64}}};
+  std::array<Format, 256> formats{};
+  for (const auto& [letter, format] : kKnown) formats[static_cast<std::uint8_t>(letter)] = format;
+  return formats;
+}();
+
+const Format& format_of(char letter) { return kFormats[static_cast<std::uint8_t>(letter)]; }
 
 template <class T>
 T little_endian(std::string_view record, std::size_t offset) {
   T value{};
   std::memcpy(&value, record.data() + offset, sizeof value);
   return value;
-}
-
-/// The factor that a format character itself implies, in a log without multipliers.
-double implied_factor(char format) {
-  switch (format) {
-    case 'c':
-    case 'C':
-    case 'e':
-    case 'E': return 1e-2;
-    case 'L': return 1e-7;
-    default: return 1;
-  }
-}
-
-std::vector<std::string_view> split(std::string_view text) {
-  std::vector<std::string_view> parts;
-  while (!text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    parts.push_back(text.substr(0, comma));
-    text.remove_prefix(std::min(comma + 1, text.size()));
-  }
-  return parts;
 }
 
 std::string_view until_zero(std::string_view text) {
@@ -85,31 +77,18 @@ const Column* MessageType::instance() const {
 }
 
 std::optional<std::int64_t> integer_of(const Column& column, std::string_view record) {
-  switch (column.format) {
-    case 'b': return little_endian<std::int8_t>(record, column.offset);
-    case 'B':
-    case 'M': return little_endian<std::uint8_t>(record, column.offset);
-    case 'h':
-    case 'c': return little_endian<std::int16_t>(record, column.offset);
-    case 'H':
-    case 'C': return little_endian<std::uint16_t>(record, column.offset);
-    case 'i':
-    case 'e':
-    case 'L': return little_endian<std::int32_t>(record, column.offset);
-    case 'I':
-    case 'E': return little_endian<std::uint32_t>(record, column.offset);
-    case 'q': return little_endian<std::int64_t>(record, column.offset);
-    case 'Q': {
-      const auto value = little_endian<std::uint64_t>(record, column.offset);
-      return value > INT64_MAX ? std::nullopt : std::optional(static_cast<std::int64_t>(value));
-    }
-    default: return std::nullopt;
-  }
+  const Format& format = format_of(column.format);
+  if (format.number != Number::whole && format.number != Number::natural) return std::nullopt;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, record.data() + column.offset, format.bytes);
+  const std::size_t unused = 64 - 8 * format.bytes;
+  if (format.number == Number::whole) return static_cast<std::int64_t>(bits << unused) >> unused;
+  return bits > INT64_MAX ? std::nullopt : std::optional(static_cast<std::int64_t>(bits));
 }
 
 std::string_view text_of(const Column& column, std::string_view record) {
   if (std::string_view("nNZ").find(column.format) == std::string_view::npos) return {};
-  return until_zero(record.substr(column.offset, size_of(column.format)));
+  return until_zero(record.substr(column.offset, format_of(column.format).bytes));
 }
 
 // FMT describes itself as every other message; a log that does not is read by this.
@@ -154,12 +133,12 @@ void Table::learn_format(std::string_view record) {
   message.length = static_cast<std::uint8_t>(record[4]);
   message.name = until_zero(record.substr(5, 4));
   const std::string_view formats = until_zero(record.substr(9, 16));
-  const auto names = split(until_zero(record.substr(25, 64)));
+  std::string_view names = until_zero(record.substr(25, 64));
   std::size_t offset = kHead_bytes;
   for (std::size_t i = 0; i < formats.size(); ++i) {
-    const std::size_t size = size_of(formats[i]);
+    const std::size_t size = format_of(formats[i]).bytes;
     if (size == 0) return;
-    if (i < names.size()) message.columns.push_back({std::string(names[i]), formats[i], offset});
+    if (!names.empty()) message.columns.push_back({std::string(base::take_until(names, ",")), formats[i], offset});
     offset += size;
   }
   if (offset != message.length) return;
@@ -196,7 +175,7 @@ std::optional<double> Table::value(const Column& column, std::string_view record
   const auto stated = multipliers_.find(column.multiplier);
   // "-" (0) means that there is none, "?" (1) that it is not known.
   const bool has_factor = stated != multipliers_.end() && stated->second != 0 && column.multiplier != '?';
-  return value * (has_factor ? stated->second : implied_factor(column.format));
+  return value * (has_factor ? stated->second : format_of(column.format).factor);
 }
 
 std::string_view Table::unit(const Column& column) const {

@@ -97,8 +97,7 @@ class Survey final : public ImportPass {
     for (const auto& [of, taken] : taken_) {
       if (std::find(names.begin(), names.end(), of.second) == names.end()) names.push_back(of.second);
     }
-    std::stable_sort(names.begin(), names.end(),
-                     [](const auto& a, const auto& b) { return port_rank(a) < port_rank(b); });
+    std::ranges::stable_sort(names, [](const auto& a, const auto& b) { return port_rank(a) < port_rank(b); });
     return names;
   }
   [[nodiscard]] std::optional<std::int64_t> offset_ns() const { return offset_ns_; }

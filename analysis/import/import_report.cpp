@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "base/enum_name.h"
 #include "base/printable.h"
+#include "record/json/put_members.h"
 
 namespace navcal::analysis {
 namespace {
@@ -76,7 +76,12 @@ std::string to_text(const ImportReport& report) {
 
 std::string to_json(const ImportReport& report) {
   using Json = nlohmann::ordered_json;
-  Json taken_ones = Json::array(), left = Json::array();
+  Json json{{"class", "IMPORT"}, {"file", report.input}};
+  NAVCAL_PUT_MEMBERS(json, report, output, format, bytes);
+  json["utc"] = key_of(report.utc);
+  json["start"] = static_cast<double>(report.start_utc_ns) * 1e-9;
+  json["duration"] = static_cast<double>(report.duration_ns) * 1e-9;
+  Json& taken_ones = json["taken"] = Json::array();
   for (const auto& [of, taken] : report.taken)
     taken_ones.push_back({{"class", "TAKEN"},
                           {"message", of.first},
@@ -84,22 +89,10 @@ std::string to_json(const ImportReport& report) {
                           {"count", taken.messages},
                           {"samples", taken.samples},
                           {"rate_Hz", taken.rate_Hz()}});
+  Json& left = json["left"] = Json::array();
   for (const auto& [name, count] : report.left)
     left.push_back({{"class", "LEFT"}, {"message", name}, {"count", count}});
-  const Json json{{"class", "IMPORT"},
-                  {"file", report.input},
-                  {"output", report.output},
-                  {"format", report.format},
-                  {"bytes", report.bytes},
-                  {"utc", key_of(report.utc)},
-                  {"start", static_cast<double>(report.start_utc_ns) * 1e-9},
-                  {"duration", static_cast<double>(report.duration_ns) * 1e-9},
-                  {"taken", taken_ones},
-                  {"left", left},
-                  {"refused", report.refused},
-                  {"damaged_bytes", report.damaged_bytes},
-                  {"cut_at", report.cut_at ? Json(*report.cut_at) : Json(nullptr)},
-                  {"remarks", report.remarks}};
+  NAVCAL_PUT_MEMBERS(json, report, refused, damaged_bytes, cut_at, remarks);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

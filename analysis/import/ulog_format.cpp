@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/import/wire_reader.h"
+#include "base/line_reader.h"
 
 namespace navcal::analysis::ulog {
 namespace {
@@ -106,17 +107,15 @@ std::optional<UlogFormat> UlogFormats::laid_out(const std::string& name, int dep
   UlogFormat format;
   std::string_view rest = definition->second;
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(';'), rest.size());
-    if (end > 0) {
-      auto field = field_of(rest.substr(0, end));
-      const auto size = field ? size_of(field->type, depth) : std::nullopt;
-      if (!size || format.size > kMostElements || format.fields.size() == kMostFields) return std::nullopt;
-      field->offset = format.size;
-      field->size = *size;
-      format.size += *size * field->count;
-      format.fields.push_back(std::move(*field));
-    }
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const std::string_view text = base::take_until(rest, ";");
+    if (text.empty()) continue;
+    auto field = field_of(text);
+    const auto size = field ? size_of(field->type, depth) : std::nullopt;
+    if (!size || format.size > kMostElements || format.fields.size() == kMostFields) return std::nullopt;
+    field->offset = format.size;
+    field->size = *size;
+    format.size += *size * field->count;
+    format.fields.push_back(std::move(*field));
   }
   return format;
 }

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "base/failure.h"
@@ -14,6 +13,7 @@
 #include "cli/live/commands.h"
 #include "cli/live/line_socket.h"
 #include "ports/port_list.h"
+#include "record/json/put_members.h"
 
 namespace navcal::cli {
 namespace {
@@ -92,9 +92,6 @@ OrderedJson json_of(const ports::PortInfo& port) {
   const auto text = [](const std::string& value) {
     return value.empty() ? OrderedJson(nullptr) : OrderedJson(value);
   };
-  const auto number = [](const std::optional<int>& value) {
-    return value ? OrderedJson(*value) : OrderedJson(nullptr);
-  };
   const auto id = [](const std::optional<int>& value) {
     return value ? OrderedJson(fmt::format("{:04x}", *value)) : OrderedJson(nullptr);
   };
@@ -108,7 +105,7 @@ OrderedJson json_of(const ports::PortInfo& port) {
           {"usb_product", text(port.usb_product)},
           {"usb_serial", text(port.usb_serial)},
           {"driver", text(port.driver)},
-          {"latency_timer_ms", number(port.latency_timer_ms)}};
+          {"latency_timer_ms", port.latency_timer_ms}};
 }
 
 void run(bool json) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <optional>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "base/failure.h"
 #include "cli/live/option_kinds.h"
+#include "protocols/decimal.h"
 
 namespace navcal::cli {
 
@@ -56,10 +56,7 @@ constexpr std::array<std::string_view, 3> kPorts{"compass", "imu", "motor"};
 std::optional<sim::ClockFactor> parse(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos) return std::nullopt;
-  sim::ClockFactor clock{text.substr(0, equals), 0};
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + equals + 1, end, clock.factor);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  const sim::ClockFactor clock{text.substr(0, equals), protocols::real(text.substr(equals + 1)).value_or(0)};
   if (!(clock.factor >= kSlowest && clock.factor <= kFastest)) return std::nullopt;
   for (const auto port : kPorts) {
     if (clock.port == port) return clock;

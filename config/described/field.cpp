@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/line_reader.h"
@@ -11,6 +10,7 @@
 #include "config/described/description_file.h"
 #include "config/described/parts.h"
 #include "config/suggestion.h"
+#include "protocols/decimal.h"
 
 namespace navcal::config {
 namespace {
@@ -179,14 +179,6 @@ void read_scale(TableReader& table, Field& field) {
   if (const auto std = table.number("std", 0, kLargest, field.unit)) field.std = *std * field.factor;
 }
 
-/// Takes what stands before `sign` off the front.
-std::string_view take_until(std::string_view& text, char sign) {
-  const std::size_t at = text.find(sign);
-  const std::string_view front = base::trimmed(text.substr(0, at));
-  text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
-  return front;
-}
-
 std::optional<std::string> set_constant(Field& field, std::string_view key, double number) {
   if (key == "zero") {
     field.zero = number;
@@ -214,7 +206,7 @@ protocols::described::Field described::read_field(const Node& node, const Defaul
 }
 
 std::optional<std::string> adjust(protocols::described::Description& description, std::string_view adjustment) {
-  const std::string name(take_until(adjustment, ':'));
+  const std::string name(base::trimmed(base::take_until(adjustment, ":")));
   std::vector<Field*> fields;
   std::vector<std::string> names;
   for (auto& kind : description.kinds) {
@@ -228,15 +220,14 @@ std::optional<std::string> adjust(protocols::described::Description& description
   if (base::trimmed(adjustment).empty())
     return fmt::format("{} lacks what is to be changed, such as \"{}: zero = 1\"", to_toml_text(name), name);
   while (!adjustment.empty()) {
-    std::string_view part = take_until(adjustment, ',');
-    const std::string_view key = take_until(part, '=');
+    std::string_view part = base::take_until(adjustment, ",");
+    const std::string_view key = base::trimmed(base::take_until(part, "="));
     part = base::trimmed(part);
-    double number = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (error != std::errc{} || end != part.data() + part.size() || !(std::abs(number) <= kLargest))
+    const auto number = protocols::real(part);
+    if (!number || !(std::abs(*number) <= kLargest))
       return fmt::format("{} is no number", to_toml_text(std::string(part)));
     for (Field* field : fields) {
-      if (auto wrong = set_constant(*field, key, number)) return wrong;
+      if (auto wrong = set_constant(*field, key, *number)) return wrong;
     }
   }
   return std::nullopt;

@@ -5,10 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "config/suggestion.h"
+#include "protocols/decimal.h"
 
 namespace navcal::config {
 namespace {
@@ -24,11 +24,9 @@ std::optional<std::string> bytes_of_hex(std::string_view text) {
   while (true) {
     while (text.starts_with(' ')) text.remove_prefix(1);
     if (text.empty()) return bytes;
-    unsigned value = 0;
-    const char* const end = text.data() + std::min<std::size_t>(2, text.size());
-    const auto [stop, error] = std::from_chars(text.data(), end, value, 16);
-    if (error != std::errc{} || stop != text.data() + 2) return std::nullopt;
-    bytes += static_cast<char>(value);
+    const auto value = protocols::integer<std::uint8_t>(text.substr(0, 2), 16);
+    if (!value || text.size() < 2) return std::nullopt;
+    bytes += static_cast<char>(*value);
     text.remove_prefix(2);
   }
 }

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
+#include "base/line_reader.h"
 #include "config/described/outputs_port.h"
 #include "config/load.h"
 #include "config/text_rules.h"
+#include "protocols/decimal.h"
 #include "protocols/device_types.h"
 #include "record/json/mapping_json.h"
 
@@ -33,13 +34,6 @@ constexpr std::array<std::uint8_t, 256> kHexadecimal = [] {
   for (std::uint8_t i = 0; i < 6; ++i) digits['a' + i] = static_cast<std::uint8_t>(10 + i);
   return digits;
 }();
-
-std::string_view take_word(std::string_view& rest) {
-  const std::size_t space = rest.find(' ');
-  const std::string_view word = rest.substr(0, space);
-  rest.remove_prefix(space == std::string_view::npos ? rest.size() : space + 1);
-  return word;
-}
 
 /// Digits, a point, nine digits.
 std::optional<std::int64_t> parse_stamp(std::string_view word) {
@@ -134,17 +128,14 @@ bool CaptureReader::read_line(std::string_view& line) {
 void CaptureReader::parse_port(std::string_view line) {
   if (last_ns_ != 0) fail("a port line behind the first line with bytes");
   std::string_view rest = line.substr(kPort.size());
-  const std::string_view port_name = take_word(rest);
-  const std::string_view protocol_name = take_word(rest);
-  const std::string_view baud_text = take_word(rest);
+  const std::string_view port_name = base::take_until(rest, " ");
+  const std::string_view protocol_name = base::take_until(rest, " ");
+  const std::string_view baud_text = base::take_until(rest, " ");
   if (!config::is_port_name(port_name)) fail("a port's name is 1 to 31 of a-z, 0-9, _ and -");
   const auto protocol = protocols::protocol_named(protocol_name);
   if (!protocol) fail("protocol must be one of " + protocol_names());
-  int baud = 0;
-  const auto [end, error] = std::from_chars(baud_text.data(), baud_text.data() + baud_text.size(), baud);
-  if (error != std::errc{} || end != baud_text.data() + baud_text.size() || baud < 1 || baud > 4'000'000) {
-    fail("speed must be a number of 1 to 4000000 baud");
-  }
+  const int baud = protocols::integer<int>(baud_text).value_or(0);
+  if (baud < 1 || baud > 4'000'000) fail("speed must be a number of 1 to 4000000 baud");
   if (!rest.empty()) fail("more behind the speed of a port line");
   for (const auto& port : ports_) {
     if (port.name == port_name) fail("the port is named a second time");
@@ -155,11 +146,11 @@ void CaptureReader::parse_port(std::string_view line) {
 
 void CaptureReader::parse_read(std::string_view line, RawRead& read) {
   std::string_view rest = line;
-  const auto stamp = parse_stamp(take_word(rest));
+  const auto stamp = parse_stamp(base::take_until(rest, " "));
   if (!stamp) fail("expected UTC seconds with nine decimals");
   if (*stamp < last_ns_) fail("time goes backwards");
-  const std::string_view port_name = take_word(rest);
-  const std::string_view arrow = take_word(rest);
+  const std::string_view port_name = base::take_until(rest, " ");
+  const std::string_view arrow = base::take_until(rest, " ");
   if (arrow != "<" && arrow != ">") fail("expected \"STAMP PORT < BYTES\", or \">\" for bytes sent");
   if (rest.empty() || rest.size() % 2 != 0 || rest.size() > 2 * kMaxBytes) {
     fail("expected 1 to 4096 bytes of two hexadecimal digits each");

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
+#include "protocols/decimal.h"
 #include "record/json/flat_json.h"
 #include "record/json/mapping_json.h"
 #include "record/log/log_reader.h"
@@ -14,13 +14,6 @@
 
 namespace navcal::record {
 namespace {
-
-std::optional<double> degrees_in(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 PositionTrack track_of(const std::filesystem::path& log_file) {
   LogReader log(open_file(log_file), log_file.string());
@@ -32,7 +25,7 @@ PositionTrack track_of(const std::filesystem::path& log_file) {
     const auto json = FlatJson::parse(utc.on_scale(*message, log));
     if (!json) continue;
     const auto time_ns = nanoseconds(json->get("time"));
-    const auto lat = degrees_in(json->get("lat")), lon = degrees_in(json->get("lon"));
+    const auto lat = protocols::real(json->get("lat")), lon = protocols::real(json->get("lon"));
     if (time_ns && lat && lon) track.add(*time_ns, {*lat, *lon});
   }
   return track;

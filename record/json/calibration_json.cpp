@@ -12,6 +12,7 @@
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
 #include "record/json/mapping_json.h"
+#include "record/json/put_members.h"
 
 namespace navcal::record {
 
@@ -27,12 +28,7 @@ Json calibrator_json(const calib::CalibratorReport& report, const calib::Correct
   Json json;
   json["calibrator"] = calib::name_of(report.calibrator);
   json["verdict"] = calib::name_of(report.verdict);
-  json["accepted"] = judgement.accepted;
-  json["reason"] = judgement.reason;
-  json["manoeuvre"] = judgement.manoeuvre;
-  json["coverage"] = number_json(judgement.coverage);
-  json["condition"] = number_json(judgement.condition);
-  json["samples"] = judgement.samples;
+  NAVCAL_PUT_MEMBERS(json, judgement, accepted, reason, manoeuvre, coverage, condition, samples);
   json["judgement"] = calib::name_of(report.outcome);
   const bool judged = judgement.held_out_quantity == calib::HeldOutQuantity::heading;
   const bool by_field = judgement.held_out_quantity == calib::HeldOutQuantity::field;
@@ -47,8 +43,7 @@ Json calibrator_json(const calib::CalibratorReport& report, const calib::Correct
   json["in_force"] = correction_json(in_force, report.calibrator);
   if (!report.step_std_uT.isZero(0))
     json["in_force_step_std_uT"] = {report.step_std_uT.x(), report.step_std_uT.y(), report.step_std_uT.z()};
-  json["held"] = report.held;
-  json["steps_back"] = report.steps_back;
+  NAVCAL_PUT_MEMBERS(json, report, held, steps_back);
   return json;
 }
 

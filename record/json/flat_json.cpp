@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/json/flat_json.h"
 
-#include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "protocols/decimal.h"
 
 namespace navcal::record {
 namespace {
@@ -75,10 +76,7 @@ class Flattener {
 }  // namespace
 
 double number_or_nan(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::numeric_limits<double>::quiet_NaN();
-  return value;
+  return protocols::real(text).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::optional<FlatJson> FlatJson::parse(std::string_view json) {

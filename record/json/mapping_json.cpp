@@ -2,10 +2,10 @@
 #include "record/json/mapping_json.h"
 
 #include <array>
-#include <charconv>
 
 #include "base/durations.h"
 #include "base/enum_name.h"
+#include "protocols/decimal.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
 
@@ -56,14 +56,8 @@ std::optional<std::int64_t> nanoseconds(std::string_view seconds) {
   std::array<char, 9> padded;
   padded.fill('0');
   fraction.copy(padded.data(), fraction.size());
-  const auto digits = [](const char* first, const char* last) -> std::optional<std::uint64_t> {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc{} || end != last) return std::nullopt;
-    return value;
-  };
-  const auto s = digits(whole.data(), whole.data() + whole.size());
-  const auto ns = digits(padded.data(), padded.data() + padded.size());
+  const auto s = protocols::integer<std::uint64_t>(whole);
+  const auto ns = protocols::integer<std::uint64_t>({padded.data(), padded.size()});
   // The greatest whole second of a 64-bit nanosecond count, less one, so that the sum below cannot overflow.
   if (!s || !ns || *s >= INT64_MAX / base::kSecond_ns) return std::nullopt;
   const auto total = static_cast<std::int64_t>(*s * base::kSecond_ns + *ns);

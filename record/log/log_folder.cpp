@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <ctime>
 #include <numeric>
 #include <optional>
 
 #include "base/durations.h"
+#include "protocols/decimal.h"
 
 namespace navcal::record {
 namespace {
@@ -27,10 +27,7 @@ std::optional<std::uint64_t> counter_of(std::string_view name) {
   name.remove_suffix(kSuffix.size());
   if (name.size() < kTime + 1 + kLeastDigits || name[kTime] != '-') return std::nullopt;
   name.remove_prefix(kTime + 1);
-  std::uint64_t counter = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), counter);
-  if (error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
-  return counter;
+  return protocols::integer<std::uint64_t>(name);
 }
 
 std::string explain(const std::filesystem::path& folder, const std::error_code& error) {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/enum_name.h"
+#include "base/line_reader.h"
 #include "base/text_rows.h"
 #include "instruments/sample_fields.h"
 
@@ -39,43 +40,44 @@ constexpr FieldKind kKindOf<std::array<std::optional<double>, 3>> = vector3;
 template <class T>
 constexpr FieldKind kKindOf<std::optional<T>> = kKindOf<T>;
 
+/// The rows of topics.txt of a topic.
+std::vector<std::array<std::string_view, 6>> rows_of(std::string_view topic) {
+  std::vector<std::array<std::string_view, 6>> rows;
+  for (auto [of, rest] : base::text_rows(topic_rows(), "|")) {
+    if (of != topic) continue;
+    for (std::string_view& word : rows.emplace_back()) word = base::take_until(rest, "|");
+  }
+  return rows;
+}
+
 template <class Owner, class T>
 Field field_of(const instruments::kind::Field<Owner, T>& field) {
   const bool is_degrees = field.quantity.form == instruments::Form::degrees;
-  return {field.key,
-          kKindOf<T>,
-          is_degrees ? std::string_view("deg") : std::string_view(),
-          field.quantity.units,
-          field.cf_name,
-          field.description};
+  Field made{field.key, kKindOf<T>, is_degrees ? "deg" : "", field.quantity.units};
+  for (const auto& [name, kind, unit, units, standard_name, long_name] : rows_of("members")) {
+    if (name != field.key) continue;
+    made.standard_name = standard_name;
+    made.long_name = long_name;
+  }
+  return made;
 }
 
 /// The members of a topic by topics.txt.
 std::vector<Field> fields_of(std::string_view topic) {
   std::vector<Field> fields;
-  for (const auto& [of, row] : base::text_rows(topic_rows(), "|")) {
-    if (of != topic) continue;
-    std::array<std::string_view, 6> words;
-    std::string_view rest = row;
-    for (std::string_view& word : words) {
-      word = rest.substr(0, rest.find('|'));
-      rest.remove_prefix(std::min(rest.size(), word.size() + 1));
-    }
-    const auto& [name, kind, unit, units, standard_name, long_name] = words;
+  for (const auto& [name, kind, unit, units, standard_name, long_name] : rows_of(topic)) {
     const auto found = base::enum_named<vector3>(kind, name_of);
     fields.push_back(found ? Field{name, *found, unit, units, standard_name, long_name} : sample_field(name));
   }
   return fields;
 }
 
-/// The members that all samples have, around those of their own. One without a description has that of the same
-/// key of another kind.
+/// The members that all samples have, around those of their own.
 template <class Sample>
 std::vector<Field> fields_of() {
   std::vector<Field> fields = fields_of("samples");
-  instruments::for_each_field<Sample>([&](const auto& field) {
-    fields.insert(fields.end() - 1, field.description.empty() ? sample_field(field.key) : field_of(field));
-  });
+  instruments::for_each_field<Sample>(
+      [&](const auto& field) { fields.insert(fields.end() - 1, field_of(field)); });
   return fields;
 }
 
@@ -94,7 +96,7 @@ Field sample_field(std::string_view key) {
   Field found;
   instruments::for_each_kind([&]<class Sample>(std::type_identity<Sample>) {
     instruments::for_each_field<Sample>([&](const auto& field) {
-      if (field.key == key && !field.description.empty()) found = field_of(field);
+      if (field.key == key) found = field_of(field);
     });
   });
   return found;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/log/message_crc.h"
 
-#include <charconv>
-
+#include "protocols/decimal.h"
 #include "record/log/checksum.h"
 #include "record/log/mcap_format.h"
 
@@ -13,10 +12,8 @@ bool json_crc_holds(std::string_view data) {
   if (data.size() <= kJsonTail || data.front() != '{') return false;
   const std::string_view tail = data.substr(data.size() - kJsonTail);
   if (tail.substr(0, kBefore.size()) != kBefore || tail.substr(kBefore.size() + 8) != "\"}") return false;
-  std::uint32_t stated = 0;
-  const char* const digits = tail.data() + kBefore.size();
-  const auto [end, error] = std::from_chars(digits, digits + 8, stated, 16);
-  return error == std::errc{} && end == digits + 8 && stated == crc32c(data.substr(0, data.size() - kJsonTail));
+  return protocols::integer<std::uint32_t>(tail.substr(kBefore.size(), 8), 16) ==
+         crc32c(data.substr(0, data.size() - kJsonTail));
 }
 
 bool raw_crc_holds(std::string_view data) {

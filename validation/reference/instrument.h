@@ -19,6 +19,11 @@ struct Fitting {
   double clock_slow = 0;         ///< share by which a card's period is too long
   double clock_ppm = 30;         ///< one standard deviation of how slow a card's clock runs beside
   double host_delay_s = 0.0001;  ///< mean of the exponential delay of a read
+
+  /// The same of a card with a slow clock of its own.
+  [[nodiscard]] Fitting with_clock(double slow) const {
+    return {seed, noisy, start_ns, slow, clock_ppm, host_delay_s};
+  }
 };
 
 /// An instrument that measures and sends at the pace of its own clock: sample k is taken at phase + k * period *

@@ -153,20 +153,15 @@ std::optional<Lost> run(const Mission& mission, const VehicleUnderTest& specimen
   check(mission);
   const ParameterDeviations& deviations = specimen.deviations;
   const Fitting fitting{seed, specimen.noisy, mission.start_ns, specimen.clock_ppm, specimen.host_delay_s};
-  const auto with_clock = [&](double slow) {
-    Fitting its_own = fitting;
-    its_own.clock_slow = slow;
-    return its_own;
-  };
   const Waters& waters = mission.waters;
   Hull hull = specimen.hull;
   hull.water_density_kg_m3 = waters.density_kg_m3;
   World world(Vehicle(hull, deviations.vehicle, mission.start),
               std::max(deviations.card.latency_s, deviations.gps.latency_s) + 1, waters.surface_C);
-  Compass compass(with_clock(specimen.clocks.compass), deviations.compass, waters.field_uT);
-  Card card(with_clock(specimen.clocks.card), deviations.card);
+  Compass compass(fitting.with_clock(specimen.clocks.compass), deviations.compass, waters.field_uT);
+  Card card(fitting.with_clock(specimen.clocks.card), deviations.card);
   Receiver receiver(fitting, deviations.gps, mission.anchorage);
-  Motor motor(with_clock(specimen.clocks.motor));
+  Motor motor(fitting.with_clock(specimen.clocks.motor));
   Helmsman helmsman(std::atan2(waters.field_uT.y(), waters.field_uT.x()));
   Outbox outbox(sink);
   std::size_t following = 0;  // order
@@ -183,10 +178,8 @@ std::optional<Lost> run(const Mission& mission, const VehicleUnderTest& specimen
     }
     world.advance(time_s + Helmsman::kPeriod_s);
     if (!world.vehicle().finite()) return Lost{time_s, now};
-    for (Instrument* instrument : {static_cast<Instrument*>(&compass), static_cast<Instrument*>(&card),
-                                   static_cast<Instrument*>(&receiver), static_cast<Instrument*>(&motor)}) {
+    for (Instrument* instrument : std::initializer_list<Instrument*>{&compass, &card, &receiver, &motor})
       instrument->catch_up(world, outbox.waiting());
-    }
     outbox.hand_over(mission.start_ns + std::llround(world.now().time_s * 1e9));
   }
   sink.truth(world.now());

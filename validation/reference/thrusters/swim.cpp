@@ -146,20 +146,12 @@ std::optional<Lost> run(const Swim& swim, const CraftUnderTest& specimen, std::u
   check(swim);
   const Differences& differences = specimen.differences;
   const ParameterDeviations& instruments = differences.instruments;
-  Fitting fitting;
-  fitting.seed = seed;
-  fitting.noisy = specimen.noisy;
-  fitting.start_ns = swim.start_ns;
-  const auto with_clock = [&](double slow) {
-    Fitting its_own = fitting;
-    its_own.clock_slow = slow;
-    return its_own;
-  };
+  const Fitting fitting{seed, specimen.noisy, swim.start_ns};
   Craft craft(specimen.real, differences.craft, specimen.nature, sea_of(swim, specimen, seed), swim.start);
   History history(craft.snapshot(), Craft::kStep_s,
                   std::max(instruments.card.latency_s, instruments.gps.latency_s) + 1, swim.waters.surface_C);
-  Compass compass(with_clock(specimen.compass_clock), instruments.compass, swim.waters.field_uT);
-  Card card(with_clock(specimen.card_clock), instruments.card);
+  Compass compass(fitting.with_clock(specimen.compass_clock), instruments.compass, swim.waters.field_uT);
+  Card card(fitting.with_clock(specimen.card_clock), instruments.card);
   Receiver receiver(fitting, instruments.gps, swim.anchorage);
   Doppler doppler(fitting, specimen.doppler, swim.floor_m);
   Computer computer(specimen.layout, swim, seed, fitting.host_delay_s);
@@ -177,10 +169,8 @@ std::optional<Lost> run(const Swim& swim, const CraftUnderTest& specimen, std::u
       history.remember(craft.snapshot());
     }
     if (!is_well(craft, history.now(), swim.floor_m)) return Lost{time_s, now};
-    for (Instrument* instrument : {static_cast<Instrument*>(&compass), static_cast<Instrument*>(&card),
-                                   static_cast<Instrument*>(&receiver), static_cast<Instrument*>(&doppler)}) {
+    for (Instrument* instrument : std::initializer_list<Instrument*>{&compass, &card, &receiver, &doppler})
       instrument->catch_up(history, outbox.waiting());
-    }
     outbox.hand_over(swim.start_ns + std::llround(history.now().time_s * 1e9));
   }
   sink.truth(history.now());
