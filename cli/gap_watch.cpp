@@ -57,13 +57,6 @@ struct GapWatchOptions {
   std::uint64_t bank_seed = 1;
 };
 
-/// What a watch of the reference vehicle is made of.
-struct Setting {
-  config::VehicleSettings vehicle;
-  devices::InstrumentModel instruments;
-  gap::EarthField field;
-};
-
 void print_line(const std::string& text) {
   std::printf("%s\n", text.c_str());
   // Whoever reads a pipe wants to see it now.
@@ -144,26 +137,28 @@ std::optional<std::array<double, 3>> given_field(const GapWatchOptions& options)
   return emulation::chosen_field_uT(options.where, now_ns);
 }
 
-std::optional<Setting> setting_of(const GapWatchOptions& options, config::VehicleSettings vehicle,
-                                  const std::optional<config::Settings>& settings, Clock::time_point end) {
-  Setting setting{std::move(vehicle), {}, {}};
-  if (settings) setting.instruments = devices::without_mounting(devices::instrument_model(*settings));
+/// Windows of the reference vehicle. Null: the time was over before the first fix.
+std::unique_ptr<gap::WindowSource> reference_of(const GapWatchOptions& options, gap::ReferenceRequest request,
+                                                const std::optional<config::Settings>& settings,
+                                                Clock::time_point end, const gap::Progress& show) {
+  expect_no_nominals(options.nominals);
+  if (settings) request.instruments = devices::without_mounting(devices::instrument_model(*settings));
   const auto given = given_field(options);
   if (!options.recording.empty()) {
-    base::Progress progress("gap watch", base::Progress::Answer::at_the_end);
     const gap::Mission mission = gap::load_mission(
-        options.recording, [&](double done) { progress.show("reading", done); }, settings);
+        options.recording, [&](double done) { show("reading", done); }, settings);
     if (const auto problem = mission.shortcoming(); !problem.empty())
       throw record::BadRecording(options.recording + ": " + problem);
-    setting.instruments = mission.instruments;
-    setting.field = mission.field;
+    request.instruments = mission.instruments;
+    request.field = mission.field;
   } else if (!given) {
     const auto field = field_by_fix(options, end);
-    if (!field) return std::nullopt;
-    setting.field = *field;
+    if (!field) return nullptr;
+    request.field = *field;
   }
-  if (given) setting.field.set_given(*given);
-  return setting;
+  if (given) request.field.set_given(*given);
+  return std::make_unique<gap::ReferenceWindows>(std::move(request),
+                                                 [&](double done) { show("null missions", done); });
 }
 
 /// Takes up the state of an earlier run. Returns why that was not possible; empty: it was, or there is none.
@@ -223,17 +218,15 @@ std::unique_ptr<gap::WindowSource> source_of(const GapWatchOptions& options, con
     settings = windows->settings();
     return windows;
   }
-  expect_no_nominals(options.nominals);
-  auto setting = setting_of(options, std::get<config::VehicleSettings>(std::move(vehicle)), settings, end);
-  if (!setting) return nullptr;
-  return std::make_unique<gap::ReferenceWindows>(
-      gap::ReferenceRequest{std::move(setting->vehicle),
-                            library,
-                            setting->instruments,
-                            setting->field,
-                            options.cache.empty() ? usual_cache() : options.cache,
-                            {options.bank_missions, options.bank_seed, base::threads_or_cores(0)}},
-      [&](double done) { show("null missions", done); });
+  const gap::BankOptions bank{options.bank_missions, options.bank_seed, base::threads_or_cores(0)};
+  return reference_of(options,
+                      {std::get<config::VehicleSettings>(std::move(vehicle)),
+                       library,
+                       {},
+                       {},
+                       options.cache.empty() ? usual_cache() : options.cache,
+                       bank},
+                      settings, end, show);
 }
 
 void watch_gap(const GapWatchOptions& options) {

@@ -95,7 +95,6 @@ LayoutWindows::LayoutWindows(LayoutWatchRequest request, const gap::Progress& pr
   model_.root = study_.bank.prior.root;
   model_.settling_s = identify::FilteredReplay::kUnjudged_s;
   model_.recordings = static_cast<int>(motions.size());
-  model_.most_looked_at = 4;
   for (const auto& channel : identify::kChannelDescriptions) model_.channels.push_back(channel.name);
   learn(progress);
 }
@@ -123,6 +122,7 @@ void LayoutWindows::learn(const gap::Progress& progress) {
   model_.noise_factor = power.mean;
   model_.windows = static_cast<int>(powers.size());
   while (model_.model_error < kLargestError && !is_quiet(model_.model_error)) model_.model_error *= kErrorStep;
+  model_.most_looked_at = 4;
 }
 
 bool LayoutWindows::is_quiet(double model_error) const {
