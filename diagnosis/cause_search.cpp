@@ -275,9 +275,13 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
       return settled(recording, prior, from, estimated,
                      [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library); });
     };
-    auto there = settled_from(prior.posterior_mean(guide.about(begin)) + begin);
-    // Far from the nominal vehicle its slopes make tolerances of the gap that no vehicle survives.
-    if (!there) there = settled_from(prior.mean + begin);
+    // Far from the nominal vehicle its slopes make tolerances of the gap, at times such that no vehicle survives.
+    const Eigen::VectorXd with_tolerances = prior.posterior_mean(guide.about(begin)) + begin;
+    const Eigen::VectorXd alone = prior.mean + begin;
+    const auto likelihood_at = [&](const Eigen::VectorXd& at) {
+      return recording.log_likelihood(recording.within(at)).value_or(-std::numeric_limits<double>::infinity());
+    };
+    auto there = settled_from(likelihood_at(with_tolerances) < likelihood_at(alone) ? alone : with_tolerances);
     if (!there) {
       // With these effects the vehicle could not have moved as it did.
       scores.set(set, none - kImpossible_nats, true);
