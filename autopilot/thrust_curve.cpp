@@ -29,7 +29,7 @@ Thrust propeller_thrust(const config::LayoutThruster& thruster, double density_k
 double at_rest_N(const config::LayoutThruster& thruster, double command) {
   const auto& commands = thruster.table_command;
   const auto& forces = thruster.table_force_N;
-  const auto above = std::upper_bound(commands.begin(), commands.end(), command);
+  const auto above = std::ranges::upper_bound(commands, command);
   if (above == commands.begin()) return thruster.force_scale * forces.front();
   if (above == commands.end()) return thruster.force_scale * forces.back();
   const auto i = static_cast<std::size_t>(above - commands.begin());

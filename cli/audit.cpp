@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -105,16 +102,14 @@ void audit(const AuditArguments& arguments) {
 }  // namespace
 
 void add_audit(CLI::App& app) {
-  auto arguments = std::make_shared<AuditArguments>();
-  auto* command =
-      app.add_subcommand("audit", "what is wrong with the sensors of a log, what it costs, and what to do");
+  const auto [command, arguments] = add_command<AuditArguments>(
+      app, "audit", "what is wrong with the sensors of a log, what it costs, and what to do", audit);
   command->add_option("FILE", arguments->files)->required();
   add_valued(command, "--vehicle", "LAYOUT.toml", arguments->vehicle);
   add_valued(command, "--map", "FILE.toml", arguments->map);
   add_window(*command, *arguments);
   add_valued(command, "--json", "FILE|-", arguments->json);
   add_valued(command, "--report", "FILE.html", arguments->report);
-  command->callback([arguments] { audit(*arguments); });
 }
 
 }  // namespace navcal::cli

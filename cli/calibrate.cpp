@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -14,7 +13,6 @@
 #include "base/failure.h"
 #include "base/progress.h"
 #include "cli/live/commands.h"
-#include "cli/live/exit_statuses.h"
 #include "cli/live/result_file.h"
 #include "cli/live/shared_options.h"
 #include "config/load.h"

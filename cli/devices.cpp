@@ -79,12 +79,8 @@ struct NewArguments {
   std::string capture, port, output;
 };
 
-protocols::described::Description read_device_file(const std::string& file) {
-  return config::load_description(file);
-}
-
 void check(const CheckArguments& arguments) {
-  const auto description = read_device_file(arguments.description);
+  const auto description = config::load_description(arguments.description);
   DeviceCapture capture(arguments.capture, arguments.port);
   base::Progress progress("devices");
   const auto findings = analysis::check_device(description, [&] {
@@ -123,22 +119,18 @@ void add_capture(CLI::App& command, std::string& capture, std::string& port) {
 }
 
 void add_check(CLI::App& devices) {
-  const auto arguments = std::make_shared<CheckArguments>();
-  auto* const command =
-      devices.add_subcommand("check", "What a description finds in a capture of the device's bytes");
+  const auto [command, arguments] = add_command<CheckArguments>(
+      devices, "check", "What a description finds in a capture of the device's bytes", check);
   command->add_option("FILE", arguments->description)->required();
   add_capture(*command, arguments->capture, arguments->port);
   command->add_flag("--json", arguments->json);
-  command->callback([arguments] { check(*arguments); });
 }
 
 void add_new(CLI::App& devices) {
-  const auto arguments = std::make_shared<NewArguments>();
-  auto* const command =
-      devices.add_subcommand("new", "Begin the description of a device from a capture of its bytes");
+  const auto [command, arguments] = add_command<NewArguments>(
+      devices, "new", "Begin the description of a device from a capture of its bytes", begin);
   add_capture(*command, arguments->capture, arguments->port);
   command->add_option("-o,--output", arguments->output)->type_name("FILE.toml");
-  command->callback([arguments] { begin(*arguments); });
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "base/progress.h"
@@ -25,13 +24,10 @@
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
 #include "diagnosis/diagnose_layout.h"
-#include "emulation/chosen_vehicle.h"
 #include "gap/verdict/request.h"
 #include "record/recording.h"
 #include "report/gap_report.h"
 #include "report/simulators/transfer.h"
-#include "sim/effects/choice.h"
-#include "sim/effects/effect_table.h"
 
 namespace navcal::cli {
 namespace {
@@ -170,10 +166,6 @@ void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& opt
               report::gap_text(diagnosis, source));
 }
 
-gap::Diagnosis saved_diagnosis(const std::string& file) {
-  return report::gap_from_json(config::content_of(file), file);
-}
-
 /// Checks what can be checked before the work. Throws Failure.
 std::vector<ExportFile> expect_outputs(const GapCommandOptions& options, bool has_layout) {
   const auto& source = options.source;
@@ -200,8 +192,9 @@ void find_gap(const GapCommandOptions& options) {
     const auto layout =
         options.saved.empty() || !options.exports.wanted.empty() ? layout_of(options) : std::nullopt;
     const std::vector<ExportFile> exports = expect_outputs(options, layout.has_value());
-    const gap::Diagnosis diagnosis =
-        options.saved.empty() ? diagnosis_of(options, layout) : saved_diagnosis(options.saved);
+    const gap::Diagnosis diagnosis = options.saved.empty()
+                                         ? diagnosis_of(options, layout)
+                                         : report::gap_from_json(config::content_of(options.saved), options.saved);
     write_models(diagnosis, options, layout, exports);
     if (options.saved.empty()) write_answers(diagnosis, options);
   });

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "base/interruptible.h"
@@ -191,8 +190,9 @@ void run(GapTrialCommandOptions options) {
 }  // namespace
 
 void add_gap_trial(CLI::App& gap) {
-  auto* command = gap.add_subcommand("trial", "blind validation of the diagnosis on withheld effects");
-  const auto options = std::make_shared<GapTrialCommandOptions>();
+  const auto [command, options] =
+      add_command<GapTrialCommandOptions>(gap, "trial", "blind validation of the diagnosis on withheld effects",
+                                          [](const GapTrialCommandOptions& given) { run(given); });
   auto& asking = options->asking;
   add_valued(command, "--cases", "N", options->cases)->check(CLI::Range(1, 100000));
   command->add_flag("--active", options->active);
@@ -216,7 +216,6 @@ void add_gap_trial(CLI::App& gap) {
   add_valued(command, "--report", "FILE.html", options->report);
   add_valued(command, "--keep", "DIR", asking.keep);
   command->add_option("--program", asking.program)->group("");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace navcal::cli

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -62,9 +60,9 @@ void run_identify(const IdentifyCommandOptions& options) {
 }  // namespace
 
 void add_identify(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "identify", "parameters of a vehicle's layout, with standard errors, from recordings and their commands");
-  const auto options = std::make_shared<IdentifyCommandOptions>();
+  const auto [command, options] = add_command<IdentifyCommandOptions>(
+      app, "identify",
+      "parameters of a vehicle's layout, with standard errors, from recordings and their commands", run_identify);
   command->add_option("FILE", options->files)->required();
   add_valued(command, "--vehicle", "PRIOR.toml", options->vehicle)->required();
   add_repeatable(command, "--holdout", "FILE", options->held_out);
@@ -75,7 +73,6 @@ void add_identify(CLI::App& app) {
   add_window(*command, *options);
   command->add_flag("--no-advice", options->no_advice);
   command->add_flag("--force", options->force);
-  command->callback([options] { run_identify(*options); });
 }
 
 }  // namespace navcal::cli

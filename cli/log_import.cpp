@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <memory>
 #include <string>
 
 #include "analysis/import/import_log.h"
@@ -57,9 +56,8 @@ void import_file(const ImportArguments& arguments) {
 }  // namespace
 
 void add_log_import(CLI::App& log) {
-  const auto arguments = std::make_shared<ImportArguments>();
-  auto* const in =
-      log.add_subcommand("import", "a log of a capture's or a device's bytes, or of a log of another system");
+  const auto [in, arguments] = add_command<ImportArguments>(
+      log, "import", "a log of a capture's or a device's bytes, or of a log of another system", import_file);
   in->add_option("FILE", arguments->file)->required();
   add_valued(in, "-o,--output", "FILE.mcap", arguments->to)->required();
   add_valued(in, "--format", "NAME", arguments->options.format,
@@ -73,7 +71,6 @@ void add_log_import(CLI::App& log) {
   add_valued(in, "--map", "FILE.toml", arguments->options.map);
   add_valued(in, "--cache", "DIR", arguments->options.folders);
   in->add_flag("--json", arguments->json);
-  in->callback([arguments] { import_file(*arguments); });
 }
 
 }  // namespace navcal::cli

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,14 +40,13 @@ void show_surfacings(const SurfacingsOptions& options) {
 }  // namespace
 
 void add_log_surfacings(CLI::App& log) {
-  const auto options = std::make_shared<SurfacingsOptions>();
-  auto* const command = log.add_subcommand(
-      "surfacings", "time to first fix and error of the dead reckoning at each surfacing of recordings");
+  const auto [command, options] = add_command<SurfacingsOptions>(
+      log, "surfacings", "time to first fix and error of the dead reckoning at each surfacing of recordings",
+      [](const SurfacingsOptions& given) { with_exit_statuses([&] { show_surfacings(given); }); });
   command->add_option("FILE", options->files)->required();
   command->add_flag("--json", options->json);
   add_valued(command, "--report", "FILE.html", options->page);
   add_valued(command, "--config", "FILE", options->config);
-  command->callback([options] { with_exit_statuses([&] { show_surfacings(*options); }); });
 }
 
 }  // namespace navcal::cli

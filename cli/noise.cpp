@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <memory>
 #include <string>
 
 #include "analysis/noise/noise_run.h"
 #include "analysis/noise/noise_settings.h"
 #include "cli/live/commands.h"
-#include "cli/live/exit_statuses.h"
 #include "cli/live/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"
@@ -46,9 +44,9 @@ void find_noise(const NoiseCommandOptions& options) {
 }  // namespace
 
 void add_noise(CLI::App& app) {
-  auto options = std::make_shared<NoiseCommandOptions>();
-  auto* command = app.add_subcommand(
-      "noise", "noise of each channel of a recording at rest: Allan deviation, spectrum, resolution");
+  const auto [command, options] = add_command<NoiseCommandOptions>(
+      app, "noise", "noise of each channel of a recording at rest: Allan deviation, spectrum, resolution",
+      find_noise);
   command->add_option("FILE", options->request.file)->required();
   add_valued(command, "--config", "FILE.toml", options->config);
   add_valued(command, "--from", "S", options->request.from_s);
@@ -56,7 +54,6 @@ void add_noise(CLI::App& app) {
   command->add_flag("--json", options->json);
   add_valued(command, "--report", "FILE.html", options->page);
   add_valued(command, "--write", "FILE.toml", options->write);
-  command->callback([options] { find_noise(*options); });
 }
 
 }  // namespace navcal::cli

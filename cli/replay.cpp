@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -101,12 +100,11 @@ void replay(const ReplayCommandOptions& options) {
 }  // namespace
 
 void add_replay(CLI::App& app) {
-  auto options = std::make_shared<ReplayCommandOptions>();
-  auto* command = app.add_subcommand("replay", "runs a recording through the pipeline: one JSON line a sample");
+  const auto [command, options] = add_command<ReplayCommandOptions>(
+      app, "replay", "runs a recording through the pipeline: one JSON line a sample", replay);
   command->add_option("FILE", options->files)->required();
   command->add_option("--config", options->config);
   command->add_flag("--json", options->json);
-  command->callback([options] { replay(*options); });
 }
 
 }  // namespace navcal::cli

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <memory>
 #include <optional>
 
 #include "base/interruptible.h"
@@ -46,10 +45,6 @@ void run(const emulation::SimulateArguments& arguments) {
   }
 }
 
-devices::InstrumentModel configured_instruments(const std::filesystem::path& file) {
-  return devices::instrument_model(config::load(file));
-}
-
 void simulate(SimulateCommandOptions& options) {
   if (options.list_effects) {
     std::fputs(sim::effects_text().c_str(), stdout);
@@ -70,7 +65,7 @@ void simulate(SimulateCommandOptions& options) {
   arguments.begin_ns = arguments.where.day_ns().value_or(emulation::kSimulatedBegin_ns);
   arguments.place = emulation::simulated_place(arguments.where, arguments.begin_ns);
   if (!arguments.place.remark.empty()) std::fprintf(stderr, "navcal: %s\n", arguments.place.remark.c_str());
-  if (!arguments.config.empty()) arguments.instruments = configured_instruments(arguments.config);
+  if (!arguments.config.empty()) arguments.instruments = devices::instrument_model(config::load(arguments.config));
   arguments.layout = emulation::layout_in(arguments.vehicle);
   run(arguments);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "analysis/thesis/thesis_results.h"
@@ -41,15 +40,14 @@ void recompute_thesis(ThesisCommandOptions options) {
 }  // namespace
 
 void add_thesis(CLI::App& app) {
-  const auto options = std::make_shared<ThesisCommandOptions>();
-  auto* const command = app.add_subcommand(
-      "thesis", "tables and figures of the thesis of 2003 recomputed: thesis, navcal, Cramer-Rao bound");
+  const auto [command, options] = add_command<ThesisCommandOptions>(
+      app, "thesis", "tables and figures of the thesis of 2003 recomputed: thesis, navcal, Cramer-Rao bound",
+      [](const ThesisCommandOptions& given) { recompute_thesis(given); });
   command->add_option("--report", options->page)->option_text("FILE.html");
   command->add_option("--json", options->json)->option_text("FILE|-");
   command->add_option("--runs", options->request.runs)->check(CLI::Range(2, 100'000))->capture_default_str();
   command->add_option("--seed", options->request.seed)->check(CLI::NonNegativeNumber)->capture_default_str();
   command->add_option("--paths", options->request.folder)->option_text("DIR");
-  command->callback([options] { recompute_thesis(*options); });
 }
 
 }  // namespace navcal::cli

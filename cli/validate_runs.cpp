@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
@@ -208,16 +207,14 @@ void validate_runs(const ValidateRunsArguments& arguments) {
 }  // namespace
 
 void add_validate_runs(CLI::App& app) {
-  auto arguments = std::make_shared<ValidateRunsArguments>();
-  auto* command =
-      app.add_subcommand("validate-runs", "causes of short runs of a thruster vehicle, from nominal runs");
+  const auto [command, arguments] = add_command<ValidateRunsArguments>(
+      app, "validate-runs", "causes of short runs of a thruster vehicle, from nominal runs", validate_runs);
   add_valued(command, "--nominal", "DIR", arguments->nominal)->required();
   add_valued(command, "--runs", "DIR", arguments->runs)->required();
   add_valued(command, "--pools", "FILE.json", arguments->pools);
   add_valued(command, "--removed", "NAME", arguments->removed);
   add_valued(command, "--sessions", "FILE.json", arguments->sessions);
   add_valued(command, "--json", "FILE", arguments->json)->required();
-  command->callback([arguments] { validate_runs(*arguments); });
 }
 
 }  // namespace navcal::cli

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -102,35 +100,31 @@ void convert_vehicle(const VehicleConvertArguments& arguments) {
 }
 
 void add_vehicle_check(CLI::App& vehicle) {
-  const auto arguments = std::make_shared<VehicleCheckArguments>();
-  auto* const command = vehicle.add_subcommand("check", "What a layout amounts to, and what is odd about it");
+  const auto [command, arguments] = add_command<VehicleCheckArguments>(
+      vehicle, "check", "What a layout amounts to, and what is odd about it", check_layout);
   command->add_option("LAYOUT", arguments->layout)->required();
   command->add_option("FILE", arguments->files);
   add_valued(command, "--config", "FILE.toml", arguments->config);
   command->add_flag("--json", arguments->json);
-  command->callback([arguments] { check_layout(*arguments); });
 }
 
 void add_vehicle_predict(CLI::App& vehicle) {
-  const auto arguments = std::make_shared<VehiclePredictArguments>();
-  auto* const command =
-      vehicle.add_subcommand("predict", "How well a layout predicts recorded motion, beside the simplest methods");
+  const auto [command, arguments] = add_command<VehiclePredictArguments>(
+      vehicle, "predict", "How well a layout predicts recorded motion, beside the simplest methods",
+      predict_vehicle);
   command->add_option("LAYOUT", arguments->layout)->required();
   command->add_option("FILE", arguments->files)->required();
   add_repeatable(command, "--fit", "TRAIN", arguments->fit);
   add_number(command, "--every", 0.1, 3600.0, arguments->every_s);
   add_valued(command, "--json", "FILE|-", arguments->json);
   add_valued(command, "--config", "FILE.toml", arguments->config);
-  command->callback([arguments] { predict_vehicle(*arguments); });
 }
 
 void add_vehicle_convert(CLI::App& vehicle) {
-  const auto arguments = std::make_shared<VehicleConvertArguments>();
-  auto* const command =
-      vehicle.add_subcommand("convert", "Write the vehicle file of one propeller and three fins as a layout");
+  const auto [command, arguments] = add_command<VehicleConvertArguments>(
+      vehicle, "convert", "Write the vehicle file of one propeller and three fins as a layout", convert_vehicle);
   command->add_option("VEHICLE", arguments->vehicle)->required();
   command->add_option("-o,--output", arguments->output)->type_name("LAYOUT.toml");
-  command->callback([arguments] { convert_vehicle(*arguments); });
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -83,13 +82,12 @@ void view(const ViewArguments& arguments) {
 }  // namespace
 
 void add_view(CLI::App& app) {
-  auto* const command = app.add_subcommand("view", "show a recording in the browser");
-  const auto arguments = std::make_shared<ViewArguments>();
+  const auto [command, arguments] =
+      add_command<ViewArguments>(app, "view", "show a recording in the browser", view);
   command->add_option("FILE", arguments->file)->required();
   add_defaulted(command, "--port", arguments->port);
   add_number(command, "--speed", 0.001, 1e6, arguments->speed);
   command->add_flag("--no-open", arguments->no_open);
-  command->callback([arguments] { view(*arguments); });
 }
 
 }  // namespace navcal::cli

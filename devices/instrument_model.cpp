@@ -23,7 +23,7 @@ const config::PortSettings* port_of(const config::Settings& settings, Role role,
     const auto serves = [&](const config::PortSettings& port) {
       return port.protocol == protocol && (named.empty() || port.name == named);
     };
-    const auto found = std::find_if(settings.ports.begin(), settings.ports.end(), serves);
+    const auto found = std::ranges::find_if(settings.ports, serves);
     if (found != settings.ports.end()) return &*found;
   }
   return nullptr;

@@ -2,7 +2,6 @@
 #include "emulation/emulate_misbehaviour.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "protocols/text_fields.h"
 

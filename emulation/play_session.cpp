@@ -78,7 +78,7 @@ asio::awaitable<void> PlaySession::wait_until_read() {
   const auto unread = [](const auto& host) { return host->unread() > 0; };
   do {
     co_await pause(kGrace);
-  } while (std::any_of(hosts_.begin(), hosts_.end(), unread) && steady_clock::now() < until);
+  } while (std::ranges::any_of(hosts_, unread) && steady_clock::now() < until);
 }
 
 void PlaySession::report() const {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <string_view>
-#include <system_error>
 
 #include "base/failure.h"
 #include "emulation/simulate_run.h"

@@ -2,7 +2,6 @@
 #include "link/host.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "link/fields.h"
 

@@ -60,7 +60,7 @@ Key Key::from_text(std::string_view text) {
   text = text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
   if (text.size() > kLongest)
     throw std::runtime_error(fmt::format("the key is longer than {} characters", kLongest));
-  if (text.size() == kDigits && std::all_of(text.begin(), text.end(), [](char c) { return value_of(c) >= 0; })) {
+  if (text.size() == kDigits && std::ranges::all_of(text, [](char c) { return value_of(c) >= 0; })) {
     std::string bytes;
     for (std::size_t i = 0; i < text.size(); i += 2)
       bytes.push_back(static_cast<char>(value_of(text[i]) << 4 | value_of(text[i + 1])));

@@ -93,8 +93,8 @@ void StreamSender::acknowledge(std::int64_t now_ns, const Ack& ack) {
 }
 
 void StreamSender::learn(std::int64_t now_ns, const Ack& ack) {
-  const auto sending = std::find_if(sendings_.begin(), sendings_.end(),
-                                    [&](const Sending& s) { return s.order != 0 && s.counter == ack.counter; });
+  const auto sending =
+      std::ranges::find_if(sendings_, [&](const Sending& s) { return s.order != 0 && s.counter == ack.counter; });
   if (sending == sendings_.end()) return;
   const double trip_s = std::max(0.0, static_cast<double>(now_ns - sending->sent_ns) * 1e-9 - ack.held_ms * 1e-3);
   if (round_trip_s_) {

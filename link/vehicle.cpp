@@ -49,7 +49,7 @@ void Vehicle::take_hello(std::int64_t now_ns, const FrameView& view) {
   }
   Nonce host{};
   if (view.payload.size() != host.size()) return;
-  std::copy(view.payload.begin(), view.payload.end(), host.begin());
+  std::ranges::copy(view.payload, host.begin());
   ++counters_.frames;
   if (active_ && active_->host == host) {
     welcome_ = active_.get();

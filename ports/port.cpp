@@ -236,7 +236,7 @@ void Port::State::drop_outgoing() {
 }
 
 void Port::State::tell(const std::string& reason) {
-  if (std::find(told.begin(), told.end(), reason) != told.end()) return;
+  if (std::ranges::find(told, reason) != told.end()) return;
   told.push_back(reason);
   listener.on_lost(monotonic_ns(), reason);
 }

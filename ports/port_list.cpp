@@ -49,7 +49,7 @@ std::vector<PortInfo> list_ports() {
   if (sp_list_ports(&list) != SP_OK) return ports;
   const std::unique_ptr<sp_port*, decltype(&sp_free_port_list)> owner(list, &sp_free_port_list);
   for (sp_port** port = list; *port != nullptr; ++port) ports.push_back(info_of(*port));
-  std::sort(ports.begin(), ports.end(), [](const PortInfo& a, const PortInfo& b) { return a.path < b.path; });
+  std::ranges::sort(ports, [](const PortInfo& a, const PortInfo& b) { return a.path < b.path; });
   return ports;
 }
 

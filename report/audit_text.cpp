@@ -43,8 +43,8 @@ std::string headline_of(const Finding& finding) {
 
 std::string summary_of(const analysis::AuditedFile& file) {
   const auto count = [&](Certainty certainty) {
-    return std::count_if(file.findings.begin(), file.findings.end(),
-                         [&](const Finding& finding) { return finding.certainty == certainty; });
+    return std::ranges::count_if(file.findings,
+                                 [&](const Finding& finding) { return finding.certainty == certainty; });
   };
   return fmt::format(
       "{} found, {} likely; {} checked without a finding, {} cannot be said. Costs are for a speed of {:.1f} "

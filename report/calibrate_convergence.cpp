@@ -75,7 +75,7 @@ Range late_range(const std::vector<std::span<const analysis::EstimatePoint>>& cu
 EarlyTimeAxis time_axis(const std::vector<std::span<const analysis::EstimatePoint>>& curves) {
   double first_s = INFINITY, last_s = 0;
   for (const auto curve : curves) {
-    const auto first = std::find_if(curve.begin(), curve.end(), [](const analysis::EstimatePoint& point) {
+    const auto first = std::ranges::find_if(curve, [](const analysis::EstimatePoint& point) {
       return std::isfinite(point.value) && std::isfinite(point.std);
     });
     if (first != curve.end()) first_s = std::min(first_s, first->time_s);

@@ -63,8 +63,8 @@ std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
   for (const calib::Quantity& quantity : report.estimate) {
     if (quantity.name.starts_with("matrix_"))
       continue;  // the matrix is for programs: users need the heading's error
-    const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
-                                   [&](const Unit& u) { return quantity.name.ends_with(u.ending); });
+    const auto unit =
+        std::ranges::find_if(kUnits, [&](const Unit& u) { return quantity.name.ends_with(u.ending); });
     const bool found = unit != kUnits.end();
     const double factor = found ? unit->factor : 1;
     const double value = quantity.value * factor, error = quantity.std * factor;

@@ -109,8 +109,8 @@ void append_closure(std::string& html, std::string_view name, const gap::Closure
 std::optional<Figure> cause_figure(const gap::Diagnosis& diagnosis) {
   const auto& effects = diagnosis.effects;
   const auto is_named = [&](const gap::EffectFinding& candidate) {
-    return std::any_of(effects.begin(), effects.end(),
-                       [&](const gap::EffectFinding& effect) { return effect.name == candidate.name; });
+    return std::ranges::any_of(effects,
+                               [&](const gap::EffectFinding& effect) { return effect.name == candidate.name; });
   };
   std::string html = "<div class=\"ranks\">\n";
   for (const auto& effect : effects) append_cause(html, effect, Standing::named);

@@ -36,7 +36,7 @@ std::string text_of_cell(double times) {
 std::vector<std::string> names(const std::vector<gap::WhereEntry>& map, std::string gap::WhereEntry::*which) {
   std::vector<std::string> all;
   for (const auto& entry : map) {
-    if (std::find(all.begin(), all.end(), entry.*which) == all.end()) all.push_back(entry.*which);
+    if (std::ranges::find(all, entry.*which) == all.end()) all.push_back(entry.*which);
   }
   return all;
 }

@@ -30,7 +30,7 @@ std::vector<Point> paired(const std::vector<double>& x, const std::vector<double
 /// Means of groups of equal size, from left to right.
 std::vector<Point> trend(std::vector<Point> points) {
   std::erase_if(points, [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
-  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+  std::ranges::sort(points, [](const Point& a, const Point& b) { return a.x < b.x; });
   const std::size_t groups = std::min(kMeans, points.size() / kLeastInMean);
   std::vector<Point> means;
   for (std::size_t group = 0; group < groups; ++group) {
@@ -83,8 +83,8 @@ CourseFigures course_figures(const gap::Diagnosis& diagnosis) {
   std::vector<const gap::Course*> left;
   for (const auto& course : diagnosis.courses) left.push_back(&course);
   for (const auto& entry : diagnosis.where) {
-    const auto found = std::find_if(left.begin(), left.end(),
-                                    [&](const gap::Course* course) { return course->channel == entry.channel; });
+    const auto found =
+        std::ranges::find_if(left, [&](const gap::Course* course) { return course->channel == entry.channel; });
     if (found == left.end() || figures.of_the_gap.size() == kMostOfTheGap) continue;
     figures.of_the_gap.push_back(course_figure(**found));
     left.erase(found);

@@ -31,9 +31,7 @@ std::string quoted(const std::string& file) {
 constexpr std::array<std::string_view, 11> kChannelUnits{"uT", "deg", "rad", "s", "s2", "m",
                                                          "N",  "A",   "A2",  "C", "g"};
 
-bool is_unit(std::string_view word) {
-  return std::find(kChannelUnits.begin(), kChannelUnits.end(), word) != kChannelUnits.end();
-}
+bool is_unit(std::string_view word) { return std::ranges::find(kChannelUnits, word) != kChannelUnits.end(); }
 
 }  // namespace
 

@@ -20,12 +20,10 @@ std::string identify_json(const identify::Identification& found) {
   IdentifyJson parameters = IdentifyJson::object(), directions = IdentifyJson::array(),
                channels = IdentifyJson::object(), disturbances = IdentifyJson::object();
   for (const auto& one : found.parameters) {
-    parameters[one.parameter.name] = {{"value", one.value},
-                                      {"std", one.std},
-                                      {"unit", one.parameter.unit},
-                                      {"prior", one.parameter.prior},
-                                      {"prior_std", one.parameter.prior_std},
-                                      {"identified", one.is_identified}};
+    auto& json = parameters[one.parameter.name];
+    NAVCAL_PUT_MEMBERS(json, one, value, std);
+    NAVCAL_PUT_MEMBERS(json, one.parameter, unit, prior, prior_std);
+    json["identified"] = one.is_identified;
   }
   for (const auto& direction : found.directions) directions.push_back(direction.words);
   for (const auto& fit : found.channels) channels[std::string(identify::describe(fit.channel).name)] = fit;

@@ -130,7 +130,7 @@ Figure spectrum_figure(const RecordedChannel& recorded) {
                log_axis(recorded.unit + "/sqrt(Hz)", roots));
   plot.line(NoiseInk::first, "", line);
   for (const auto& found : recorded.noise.lines) {
-    const auto nearest = std::min_element(frequencies.begin(), frequencies.end(), [&](double a, double b) {
+    const auto nearest = std::ranges::min_element(frequencies, [&](double a, double b) {
       return std::abs(a - found.frequency_Hz) < std::abs(b - found.frequency_Hz);
     });
     const auto at = static_cast<std::size_t>(nearest - frequencies.begin());
@@ -185,19 +185,13 @@ std::vector<ChannelList> overview_groups(const analysis::NoiseReport& report) {
       return group.size() < kTogether && group.front()->port == recorded.port &&
              group.front()->unit == recorded.unit;
     };
-    const auto group = std::find_if(groups.begin(), groups.end(), fits);
+    const auto group = std::ranges::find_if(groups, fits);
     if (group == groups.end())
       groups.push_back({&recorded});
     else
       group->push_back(&recorded);
   }
   return groups;
-}
-
-void append_channel(HtmlPage& page, const RecordedChannel& recorded, const analysis::NoiseReport& report) {
-  const auto figures = channel_figures(recorded, report);
-  if (figures.empty()) return;
-  page.folded_figures(recorded.name(), figures);
 }
 
 void append_remarks(HtmlPage& page, const analysis::NoiseReport& report) {
@@ -233,7 +227,10 @@ std::string noise_page(const analysis::NoiseReport& report) {
     page.figures(overview);
   }
   page.section("Each channel");
-  for (const auto& recorded : report.channels) append_channel(page, recorded, report);
+  for (const auto& recorded : report.channels) {
+    const auto figures = channel_figures(recorded, report);
+    if (!figures.empty()) page.folded_figures(recorded.name(), figures);
+  }
   if (found) append_remarks(page, report);
   page.section("Made from");
   page.table({"", ""}, {{"Recording", report.file},

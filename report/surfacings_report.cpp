@@ -45,7 +45,7 @@ using SurfacingInk = SvgPlot::Ink;
 
 /// Ten bins of a round width.
 Figure ttff_histogram(const std::vector<double>& times_s) {
-  const double longest_s = *std::max_element(times_s.begin(), times_s.end());
+  const double longest_s = *std::ranges::max_element(times_s);
   const double width_s = std::max(1.0, std::ceil(longest_s / 10));
   std::vector<double> counts(static_cast<std::size_t>(longest_s / width_s) + 1, 0);
   for (const double time_s : times_s) ++counts[static_cast<std::size_t>(time_s / width_s)];
@@ -58,7 +58,7 @@ Figure ttff_histogram(const std::vector<double>& times_s) {
     }
   }
   SvgPlot plot("Time to first fix", {"time to first fix, s", {0, static_cast<double>(counts.size()) * width_s}},
-               {"surfacings", {0, *std::max_element(counts.begin(), counts.end()) * 1.1}});
+               {"surfacings", {0, *std::ranges::max_element(counts) * 1.1}});
   plot.band(SurfacingInk::first, "", lower, upper);
   plot.line(SurfacingInk::first, "", upper);
   return {"Distribution", plot.svg(), "Number of surfacings with a time to first fix within each bin."};
@@ -114,7 +114,7 @@ SurfacingStatistics statistics_of(const std::vector<analysis::RecordedSurfacing>
   }
   statistics.with_ttff = times_s.size();
   if (!times_s.empty()) {
-    std::sort(times_s.begin(), times_s.end());
+    std::ranges::sort(times_s);
     statistics.ttff_least_s = validation::quantile(times_s, 0);
     statistics.ttff_longest_s = validation::quantile(times_s, 1);
     statistics.ttff_median_s = validation::quantile(times_s, 0.5);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "analysis/surfacing_run.h"
-#include "config/instruments.h"
 
 namespace navcal::report {
 

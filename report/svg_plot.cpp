@@ -93,7 +93,7 @@ Range range_of(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }),
                values.end());
   if (values.empty()) return {-1, 1};
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return with_margin(without_outliers(values));
 }
 
@@ -218,7 +218,7 @@ void SvgPlot::append_cuts(std::string& out) const {
 }
 
 bool SvgPlot::any_cut() const {
-  return std::any_of(cuts_.begin(), cuts_.end(), [](const Cut& cut) { return cut.points > 0; });
+  return std::ranges::any_of(cuts_, [](const Cut& cut) { return cut.points > 0; });
 }
 
 void SvgPlot::level(double y) {

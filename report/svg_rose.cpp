@@ -23,7 +23,7 @@ std::pair<double, double> place(double radius, double heading_deg) {
 }  // namespace
 
 std::string svg_rose(const calib::HeadingHistogram& rose) {
-  const double most = std::max(1.0, static_cast<double>(*std::max_element(rose.begin(), rose.end())));
+  const double most = std::max(1.0, static_cast<double>(*std::ranges::max_element(rose)));
   std::string out = fmt::format(
       "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {0:.0f}\" width=\"{0:.0f}\" height=\"{0:.0f}\">\n"
       "<title>Headings visited</title>\n",
@@ -56,7 +56,7 @@ std::string svg_rose(const calib::HeadingHistogram& rose) {
 }
 
 std::string text_rose(const calib::HeadingHistogram& rose) {
-  const std::uint64_t most = *std::max_element(rose.begin(), rose.end());
+  const std::uint64_t most = *std::ranges::max_element(rose);
   std::string text;
   for (const std::uint64_t count : rose) text += count == 0 ? '.' : count * 5 < most ? ':' : '#';
   return text;

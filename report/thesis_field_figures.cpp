@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <array>
-
 #include "calib/thesis/printed_tables.h"
 #include "report/thesis_content.h"
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/text_rows.h"
 #include "calib/thesis/printed_tables.h"
@@ -40,8 +39,8 @@ ThesisFinding gyro_finding(const analysis::ThesisResults& results) {
 /// Number of paths on which a time is known.
 template <class Get>
 long paths_settled(const analysis::ThesisResults& results, Get get) {
-  return std::count_if(results.gyro.begin(), results.gyro.end(),
-                       [&](const analysis::ThesisGyro& path) { return get(path).has_value(); });
+  return std::ranges::count_if(results.gyro,
+                               [&](const analysis::ThesisGyro& path) { return get(path).has_value(); });
 }
 
 ThesisFinding identifier_finding(const analysis::ThesisResults& results) {

@@ -69,7 +69,7 @@ std::vector<Figure> closure_figure(const std::vector<double>& closures) {
     const double place = (std::clamp(closure, kLeast, kMost) - kLeast) / kWidth;
     ++counts[static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, kBins - 1))];
   }
-  const int most = *std::max_element(counts.begin(), counts.end());
+  const int most = *std::ranges::max_element(counts);
   SvgPlot plot("Closure", {"part of the held-out gap closed, %", {100 * kLeast, 100 * kMost}},
                {"cases", {0, 1.08 * most}});
   for (std::size_t i = 0; i < counts.size(); ++i) {

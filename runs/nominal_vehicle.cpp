@@ -15,14 +15,6 @@
 namespace navcal::runs {
 namespace {
 
-Eigen::MatrixXd rows_of(const Eigen::MatrixXd& values, const std::vector<std::size_t>& places) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), values.cols());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    rows.row(static_cast<Eigen::Index>(i)) = values.row(static_cast<Eigen::Index>(places[i]));
-  }
-  return rows;
-}
-
 /// Within a session the ballast stays, so the attitude at rest repeats within half a degree, and the weather moves
 /// the pressure by a few hectopascals.
 constexpr double kRollScatter_rad = 0.4 * base::kRadiansPerDegree,
@@ -215,7 +207,7 @@ Scatter scatter_of(const Eigen::MatrixXd& values, std::span<const std::vector<st
   double degrees = 0, inverse_counts = 0;
   for (const auto& session : sessions) {
     if (session.size() < 2) continue;
-    const Eigen::MatrixXd rows = rows_of(values, session);
+    const Eigen::MatrixXd rows = values(session, Eigen::all);
     const Eigen::RowVectorXd mean = rows.colwise().mean();
     const Eigen::MatrixXd centred = rows.rowwise() - mean;
     scatter.run += centred.transpose() * centred;

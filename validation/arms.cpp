@@ -38,9 +38,7 @@ constexpr std::array<TrialArm, kCasesPerRound> kRound{
 constexpr std::array kLayoutRound{nulls, single, removed, single,        nulls, foreign, single_half, single,
                                   nulls, pairs,  nulls,   single_double, nulls, removed, single,      foreign};
 
-bool has(std::span<const TrialArm> arms, TrialArm arm) {
-  return std::find(arms.begin(), arms.end(), arm) != arms.end();
-}
+bool has(std::span<const TrialArm> arms, TrialArm arm) { return std::ranges::find(arms, arm) != arms.end(); }
 
 }  // namespace
 
@@ -60,7 +58,7 @@ int ordinal_in_arm(int number, TrialRound round) {
   const TrialArm arm = arm_of_case(number, round);
   const auto size = static_cast<std::ptrdiff_t>(round.size());
   const std::ptrdiff_t rounds = (number - 1) / size, place = (number - 1) % size;
-  const auto in_round = std::count(round.begin(), round.end(), arm);
+  const auto in_round = std::ranges::count(round, arm);
   return static_cast<int>(rounds * in_round + std::count(round.begin(), round.begin() + place, arm));
 }
 

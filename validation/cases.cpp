@@ -41,7 +41,7 @@ Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, reference::Rng& 
   const auto add_any = [&](Kinds& kinds) {
     const reference::EffectKind* kind = nullptr;
     do kind = &library[dice.bits() % library.size()];
-    while (std::find(kinds.begin(), kinds.end(), kind) != kinds.end());
+    while (std::ranges::find(kinds, kind) != kinds.end());
     kinds.push_back(kind);
   };
   Kinds kinds;

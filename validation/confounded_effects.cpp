@@ -92,8 +92,7 @@ bool is_confounded(const TrialEffect& effect, std::string_view full_name) {
   if (name == effect.name) return belongs(effect, of);
   if ((!effect.of.empty() && belongs(effect, of)) || is_pair(effect.name, name)) return true;
   const TrialSignature* const signature = signature_of(effect.name);
-  return signature != nullptr && std::find(signature->confounders.begin(), signature->confounders.end(), name) !=
-                                     signature->confounders.end();
+  return signature != nullptr && std::ranges::find(signature->confounders, name) != signature->confounders.end();
 }
 
 std::span<const TrialSignature> trial_signatures() {
@@ -103,7 +102,7 @@ std::span<const TrialSignature> trial_signatures() {
 
 const TrialSignature* signature_of(std::string_view effect) {
   const auto all = trial_signatures();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.effect == effect; });
+  const auto found = std::ranges::find_if(all, [&](const auto& s) { return s.effect == effect; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -111,7 +110,7 @@ std::vector<ConfoundedEffects> confounded_pairs() {
   std::vector<ConfoundedEffects> pairs;
   for (const TrialSignature& signature : trial_signatures()) {
     for (const std::string_view other : signature.confounders) {
-      const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const ConfoundedEffects& pair) {
+      const bool known = std::ranges::any_of(pairs, [&](const ConfoundedEffects& pair) {
         return pair.first == other && pair.second == signature.effect;
       });
       if (!known) pairs.push_back({signature.effect, other});

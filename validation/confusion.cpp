@@ -27,9 +27,7 @@ std::vector<std::string> truths_of(const TrialCase& drawn) {
 
 void count_case(const TrialResult& result, Counts& counts) {
   const auto truths = truths_of(result.drawn);
-  const auto is_there = [&](const std::string& name) {
-    return std::find(truths.begin(), truths.end(), name) != truths.end();
-  };
+  const auto is_there = [&](const std::string& name) { return std::ranges::find(truths, name) != truths.end(); };
   std::vector<std::string> named, wrong;
   if (result.answer) {
     for (const TrialFinding& finding : result.answer->effects) {
@@ -38,8 +36,7 @@ void count_case(const TrialResult& result, Counts& counts) {
         if (is_same(effect, finding.name)) named.back() = effect.full_name();
     }
   }
-  std::copy_if(named.begin(), named.end(), std::back_inserter(wrong),
-               [&](const auto& name) { return !is_there(name); });
+  std::ranges::copy_if(named, std::back_inserter(wrong), [&](const auto& name) { return !is_there(name); });
   for (const std::string& truth : truths) {
     std::vector<std::string> answers = wrong;
     if (!result.answer) {
@@ -48,7 +45,7 @@ void count_case(const TrialResult& result, Counts& counts) {
       answers = {"no gap"};
     } else if (result.answer->verdict != TrialVerdict::explained) {
       answers = {"unknown"};
-    } else if (std::find(named.begin(), named.end(), truth) != named.end()) {
+    } else if (std::ranges::find(named, truth) != named.end()) {
       answers = {truth};
     } else if (wrong.empty()) {
       answers = {"left out"};
@@ -66,8 +63,8 @@ std::vector<std::string> library_names() {
 }  // namespace
 
 int TrialConfusion::count(std::string_view truth, std::string_view answer) const {
-  const auto row = std::find(truths.begin(), truths.end(), truth);
-  const auto column = std::find(answers.begin(), answers.end(), answer);
+  const auto row = std::ranges::find(truths, truth);
+  const auto column = std::ranges::find(answers, answer);
   if (row == truths.end() || column == answers.end()) return 0;
   return counts[static_cast<std::size_t>(row - truths.begin())]
                [static_cast<std::size_t>(column - answers.begin())];
@@ -85,11 +82,11 @@ TrialConfusion trial_confusion(std::span<const TrialResult> results) {
     for (const std::string& name : library_names()) order.push_back(name);
     // A diagnosis may answer a name that nobody knows.
     for (const auto& [pair, count] : counts) {
-      if (std::find(order.begin(), order.end(), part(pair)) == order.end()) order.push_back(part(pair));
+      if (std::ranges::find(order, part(pair)) == order.end()) order.push_back(part(pair));
     }
     for (const std::string& name : order) {
       const bool occurs =
-          std::any_of(counts.begin(), counts.end(), [&](const auto& entry) { return part(entry.first) == name; });
+          std::ranges::any_of(counts, [&](const auto& entry) { return part(entry.first) == name; });
       if (occurs) list.push_back(name);
     }
   };

@@ -27,7 +27,7 @@ bool is_twin(const TrialAnswer& answer, const TrialEffect& effect) {
 
 template <class List>
 bool contains(const List& list, std::string_view name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
+  return std::ranges::find(list, name) != list.end();
 }
 
 TrialOutcome outcome_of(const TrialCase& drawn, const TrialAnswer& answer) {

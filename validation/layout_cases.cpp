@@ -44,7 +44,7 @@ const thrusters::CraftEffectKind& effect_in_turn(std::uint64_t seed, TrialArm ar
         (kind.scope == thrusters::Scope::instrument) == is_instrument)
       kinds.push_back(&kind);
   }
-  const auto of_arm = static_cast<std::uint64_t>(std::find(kOrder.begin(), kOrder.end(), arm) - kOrder.begin());
+  const auto of_arm = static_cast<std::uint64_t>(std::ranges::find(kOrder, arm) - kOrder.begin());
   return *kinds[in_turn(seed, kTurnStream + 2 * of_arm + (is_instrument ? 1 : 0), 64, place, kinds.size())];
 }
 
@@ -150,8 +150,8 @@ LayoutRecording recording_of(const LayoutVehicle& vehicle, thrusters::CraftUnder
 
 template <class Recordings>
 bool can_swim(const Recordings& recordings) {
-  return std::none_of(recordings.begin(), recordings.end(),
-                      [](const LayoutRecording& recording) { return capture_of(recording).empty(); });
+  return std::ranges::none_of(recordings,
+                              [](const LayoutRecording& recording) { return capture_of(recording).empty(); });
 }
 
 TrialCase swimming_case(const LayoutTrial& trial, int number,

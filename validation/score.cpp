@@ -38,7 +38,7 @@ class Table {
   void share(const std::string& name, TrialTarget target, Arms arms, const Question& question) {
     share(name, target, [&](const Judged& one) -> std::optional<bool> {
       const auto arm = one.result->drawn.arm;
-      return std::find(arms.begin(), arms.end(), arm) == arms.end() ? std::nullopt : question(one);
+      return std::ranges::find(arms, arm) == arms.end() ? std::nullopt : question(one);
     });
   }
   void share(const std::string& name, TrialTarget target, const Question& question) {
@@ -211,7 +211,7 @@ std::array<double, 2> wilson(int hits, int cases) {
 
 std::optional<double> quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double place = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, values.size() - 1);

@@ -7,21 +7,45 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <boost/preprocessor/seq/for_each.hpp>
+#include <boost/preprocessor/stringize.hpp>
+#include <boost/preprocessor/variadic/to_seq.hpp>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "api/python/relay.h"
 #include "api/python/table.h"
 
 namespace py = pybind11;
-using navcal::python::relay_to;
 using navcal::python::Table;
 namespace api = navcal::api;
 
+/// Attributes of a Python class that have the names of members of its type.
+#define NAVCAL_READ_MEMBER(_, python_class, member) \
+  python_class.def_readonly(BOOST_PP_STRINGIZE(member), &decltype(python_class)::type::member);
+#define NAVCAL_READ_MEMBERS(python_class, ...) \
+  BOOST_PP_SEQ_FOR_EACH(NAVCAL_READ_MEMBER, python_class, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))
+
+/// Sets these members from keywords of the same names, as far as they were given.
+#define NAVCAL_TAKE_MEMBER(_, options, member) take(keywords, BOOST_PP_STRINGIZE(member), options.member);
+#define NAVCAL_TAKE_MEMBERS(options, ...) \
+  BOOST_PP_SEQ_FOR_EACH(NAVCAL_TAKE_MEMBER, options, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))
+
 namespace {
+
+/// Progress of the library to a Python function (None: to nobody), and Ctrl-C to the library. The function gets
+/// step and share; False ends the job, and so does what it raises. The job must run without the interpreter's
+/// lock.
+api::Progress relay_to(const py::object& function) {
+  return [&function](std::string_view step, double share) {
+    const py::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (function.is_none()) return true;
+    return !function(std::string(step), share).is(py::bool_(false));
+  };
+}
 
 using Tables = std::map<std::string, Table>;
 
@@ -81,10 +105,8 @@ void bind_errors(py::module_& module) {
 }
 
 void bind_samples(py::module_& module) {
-  py::class_<api::Port>(module, "Port", "A serial port and its device.")
-      .def_readonly("name", &api::Port::name)
-      .def_readonly("device", &api::Port::device)
-      .def_readonly("baud", &api::Port::baud);
+  py::class_<api::Port> serial_port(module, "Port", "A serial port and its device.");
+  NAVCAL_READ_MEMBERS(serial_port, name, device, baud)
   py::class_<api::Recording>(module, "Recording", "A recording (capture or log), played through the pipeline.")
       .def(py::init([](const std::filesystem::path& file, const std::optional<std::filesystem::path>& config) {
              return api::Recording(file, config.value_or(std::filesystem::path()));
@@ -116,28 +138,15 @@ void bind_samples(py::module_& module) {
 }
 
 void bind_calibration(py::module_& module) {
-  py::class_<api::Quantity>(module, "Quantity", "One number of an estimate.")
-      .def_readonly("name", &api::Quantity::name)
-      .def_readonly("value", &api::Quantity::value)
-      .def_readonly("std_error", &api::Quantity::std_error);
-  py::class_<api::CalibratorResult>(module, "CalibratorResult",
-                                    "The estimate of one calibrator and its judgement.")
-      .def_readonly("name", &api::CalibratorResult::name)
-      .def_readonly("verdict", &api::CalibratorResult::verdict)
-      .def_readonly("judgement", &api::CalibratorResult::judgement)
-      .def_readonly("accepted", &api::CalibratorResult::accepted)
-      .def_readonly("reason", &api::CalibratorResult::reason)
-      .def_readonly("manoeuvre", &api::CalibratorResult::manoeuvre)
-      .def_readonly("coverage", &api::CalibratorResult::coverage)
-      .def_readonly("condition", &api::CalibratorResult::condition)
-      .def_readonly("samples", &api::CalibratorResult::samples)
-      .def_readonly("estimate", &api::CalibratorResult::estimate);
-  py::class_<api::Calibration>(module, "Calibration", "The answer of calibrate().")
-      .def_readonly("calibrators", &api::Calibration::calibrators)
-      .def_readonly("duration_s", &api::Calibration::duration_s)
-      .def_readonly("remarks", &api::Calibration::remarks)
-      .def_readonly("json", &api::Calibration::json)
-      .def("as_dict", [](const api::Calibration& answer) { return loads(answer.json); });
+  py::class_<api::Quantity> quantity(module, "Quantity", "One number of an estimate.");
+  NAVCAL_READ_MEMBERS(quantity, name, value, std_error)
+  py::class_<api::CalibratorResult> result(module, "CalibratorResult",
+                                           "The estimate of one calibrator and its judgement.");
+  NAVCAL_READ_MEMBERS(result, name, verdict, judgement, accepted, reason, manoeuvre, coverage, condition, samples,
+                      estimate)
+  py::class_<api::Calibration> calibration(module, "Calibration", "The answer of calibrate().");
+  NAVCAL_READ_MEMBERS(calibration, calibrators, duration_s, remarks, json)
+  calibration.def("as_dict", [](const api::Calibration& answer) { return loads(answer.json); });
   module.def(
       "calibrate",
       [](const std::vector<std::filesystem::path>& files, const std::optional<std::filesystem::path>& config,
@@ -174,21 +183,13 @@ void bind_simulation(py::module_& module) {
         api::SimulateOptions options;
         std::map<std::string, double> effects, clocks;
         std::optional<std::array<double, 3>> place;
-        take(keywords, "mission", options.mission);
-        take(keywords, "drive", options.drive);
-        take(keywords, "path", options.path);
-        take(keywords, "vehicle", options.vehicle);
-        take(keywords, "config", options.config);
+        NAVCAL_TAKE_MEMBERS(options, mission, drive, path, vehicle, config)
         take(keywords, "effects", effects);
         take(keywords, "effects_file", options.effects_file);
         take(keywords, "clocks", clocks);
         take(keywords, "seconds", options.seconds);
         take(keywords, "place", place);
-        take(keywords, "field_uT", options.field_uT);
-        take(keywords, "date", options.date);
-        take(keywords, "seed", options.seed);
-        take(keywords, "noise", options.noise);
-        take(keywords, "truth", options.truth);
+        NAVCAL_TAKE_MEMBERS(options, field_uT, date, seed, noise, truth)
         expect_none_left(keywords, "simulate");
         for (const auto& [name, strength] : effects) options.effects.push_back({name, strength});
         for (const auto& [port, rate] : clocks) options.clocks.push_back({port, rate});
@@ -210,48 +211,23 @@ std::vector<std::filesystem::path> recordings_of(const py::object& given) {
 }
 
 void take_diagnosis(py::kwargs& keywords, api::DiagnoseOptions& options) {
-  take(keywords, "holdouts", options.holdouts);
-  take(keywords, "nominals", options.nominals);
-  take(keywords, "steady", options.steady);
-  take(keywords, "vehicle", options.vehicle);
-  take(keywords, "config", options.config);
-  take(keywords, "field_uT", options.field_uT);
-  take(keywords, "exclude", options.exclude);
-  take(keywords, "without", options.without);
-  take(keywords, "bank", options.bank);
-  take(keywords, "seed", options.seed);
-  take(keywords, "cache", options.cache);
-  take(keywords, "threads", options.threads);
+  NAVCAL_TAKE_MEMBERS(options, holdouts, nominals, steady, vehicle, config, field_uT, exclude, without, bank, seed,
+                      cache, threads)
 }
 
 void bind_diagnosis(py::module_& module) {
-  py::class_<api::EffectParameter>(module, "EffectParameter", "A parameter of an effect.")
-      .def_readonly("name", &api::EffectParameter::name)
-      .def_readonly("value", &api::EffectParameter::value)
-      .def_readonly("std_error", &api::EffectParameter::std_error);
-  py::class_<api::Effect>(module, "Effect", "An effect as a cause.")
-      .def_readonly("name", &api::Effect::name)
-      .def_readonly("of", &api::Effect::of)
-      .def_readonly("probability", &api::Effect::probability)
-      .def_readonly("parameters", &api::Effect::parameters);
-  py::class_<api::Diagnosis>(module, "Diagnosis", "The answer of diagnose().")
-      .def_property_readonly("verdict",
-                             [](const api::Diagnosis& answer) {
-                               constexpr std::array kNames{"no-gap", "explained", "unknown"};
-                               return kNames.at(static_cast<std::size_t>(answer.verdict));
-                             })
-      .def_readonly("sentence", &api::Diagnosis::sentence)
-      .def_readonly("effects", &api::Diagnosis::effects)
-      .def_readonly("candidates", &api::Diagnosis::candidates)
-      .def_readonly("unexplained", &api::Diagnosis::unexplained)
-      .def_readonly("next", &api::Diagnosis::next)
-      .def_readonly("remarks", &api::Diagnosis::remarks)
-      .def_readonly("duration_s", &api::Diagnosis::duration_s)
-      .def_readonly("seconds", &api::Diagnosis::seconds)
-      .def_readonly("json", &api::Diagnosis::json)
-      .def_readonly("effects_toml", &api::Diagnosis::effects_toml)
-      .def_readonly("layout_toml", &api::Diagnosis::layout_toml)
-      .def("as_dict", [](const api::Diagnosis& answer) { return loads(answer.json); });
+  py::class_<api::EffectParameter> parameter(module, "EffectParameter", "A parameter of an effect.");
+  NAVCAL_READ_MEMBERS(parameter, name, value, std_error)
+  py::class_<api::Effect> effect(module, "Effect", "An effect as a cause.");
+  NAVCAL_READ_MEMBERS(effect, name, of, probability, parameters)
+  py::class_<api::Diagnosis> diagnosis(module, "Diagnosis", "The answer of diagnose().");
+  diagnosis.def_property_readonly("verdict", [](const api::Diagnosis& answer) {
+    constexpr std::array kNames{"no-gap", "explained", "unknown"};
+    return kNames.at(static_cast<std::size_t>(answer.verdict));
+  });
+  NAVCAL_READ_MEMBERS(diagnosis, sentence, effects, candidates, unexplained, next, remarks, duration_s, seconds,
+                      json, effects_toml, layout_toml)
+  diagnosis.def("as_dict", [](const api::Diagnosis& answer) { return loads(answer.json); });
   module.def(
       "diagnose",
       [](const py::object& missions, const py::object& progress, py::kwargs keywords) {
@@ -269,27 +245,17 @@ void bind_diagnosis(py::module_& module) {
 }
 
 void bind_next_mission(py::module_& module) {
-  py::class_<api::NextMission>(module, "NextMission", "The answer of plan_next_mission().")
-      .def_readonly("decides", &api::NextMission::decides)
-      .def_readonly("probability_now", &api::NextMission::probability_now)
-      .def_readonly("probability_exact", &api::NextMission::probability_exact)
-      .def_readonly("duration_s", &api::NextMission::duration_s)
-      .def_readonly("manoeuvres", &api::NextMission::manoeuvres)
-      .def_readonly("sentence", &api::NextMission::sentence)
-      .def_readonly("remarks", &api::NextMission::remarks)
-      .def_readonly("mission_toml", &api::NextMission::mission_toml)
-      .def_readonly("json", &api::NextMission::json)
-      .def_readonly("page", &api::NextMission::page)
-      .def("as_dict", [](const api::NextMission& answer) { return loads(answer.json); });
+  py::class_<api::NextMission> next(module, "NextMission", "The answer of plan_next_mission().");
+  NAVCAL_READ_MEMBERS(next, decides, probability_now, probability_exact, duration_s, manoeuvres, sentence, remarks,
+                      mission_toml, json, page)
+  next.def("as_dict", [](const api::NextMission& answer) { return loads(answer.json); });
   module.def(
       "plan_next_mission",
       [](const py::object& missions, const py::object& progress, py::kwargs keywords) {
         const std::vector<std::filesystem::path> recordings = recordings_of(missions);
         api::NextMissionOptions options;
         take_diagnosis(keywords, options.diagnosis);
-        take(keywords, "minutes", options.minutes);
-        take(keywords, "limits", options.limits);
-        take(keywords, "mission_out", options.mission_out);
+        NAVCAL_TAKE_MEMBERS(options, minutes, limits, mission_out)
         expect_none_left(keywords, "plan_next_mission");
         options.diagnosis.progress = relay_to(progress);
         const py::gil_scoped_release unlocked;

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <memory>
-
 #include "base/printable.h"
 #include "cli/live/commands.h"
 #include "cli/live/doctor_checks.h"
@@ -58,13 +56,11 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_doctor(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("doctor", "checks this machine for obstacles to good data, and names the repairs");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto [command, arguments] = add_command<Arguments>(
+      app, "doctor", "checks this machine for obstacles to good data, and names the repairs", run);
   add_defaulted(command, "--config", arguments->configuration)->type_name("FILE");
   command->add_flag("--json", arguments->json);
   command->add_flag("--fix", arguments->fix);
-  command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace navcal::cli

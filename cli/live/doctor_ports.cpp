@@ -130,7 +130,7 @@ bool may_read_and_write(const Account& account, uid_t owner, gid_t group, mode_t
   constexpr mode_t kOwner = S_IRUSR | S_IWUSR, kGroup = S_IRGRP | S_IWGRP, kOthers = S_IROTH | S_IWOTH;
   // The first that applies decides, as in the kernel.
   if (account.uid == owner) return (mode & kOwner) == kOwner;
-  const bool member = std::find(account.groups.begin(), account.groups.end(), group) != account.groups.end();
+  const bool member = std::ranges::find(account.groups, group) != account.groups.end();
   return member ? (mode & kGroup) == kGroup : (mode & kOthers) == kOthers;
 }
 

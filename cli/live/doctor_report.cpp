@@ -22,8 +22,8 @@ std::string number_of(std::size_t count, const char* what) {
 }  // namespace
 
 std::size_t count_of(const Findings& findings, Finding::Severity severity) {
-  return static_cast<std::size_t>(std::count_if(
-      findings.begin(), findings.end(), [&](const Finding& finding) { return finding.severity == severity; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(findings, [&](const Finding& finding) { return finding.severity == severity; }));
 }
 
 std::string doctor_text(const Findings& findings) {

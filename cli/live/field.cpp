@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <memory>
 
 #include "base/angles.h"
 #include "base/world_magnetic_model.h"
@@ -49,13 +48,11 @@ void show_field(const FieldCommandOptions& options) {
 }  // namespace
 
 void add_field(CLI::App& app) {
-  const auto options = std::make_shared<FieldCommandOptions>();
-  auto* const command =
-      app.add_subcommand("field", "Earth's magnetic field at a place, as lines for navcald.toml");
+  const auto [command, options] = add_command<FieldCommandOptions>(
+      app, "field", "Earth's magnetic field at a place, as lines for navcald.toml", show_field);
   add_valued(command, "--place", "LAT,LON[,HEIGHT_M]", options->where.place)->required();
   add_valued(command, "--date", "YYYY-MM-DD", options->where.date);
   command->add_flag("--json", options->json);
-  command->callback([options] { show_field(*options); });
 }
 
 }  // namespace navcal::cli

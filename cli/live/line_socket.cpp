@@ -75,7 +75,7 @@ LineSocket LineSocket::unix_domain(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.native().size() >= sizeof address.sun_path) refuse_connection(path.native(), "the name is too long");
-  std::copy(path.native().begin(), path.native().end(), address.sun_path);
+  std::ranges::copy(path.native(), address.sun_path);
   base::Descriptor descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (descriptor.get() < 0 ||
       ::connect(descriptor.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {

@@ -88,7 +88,7 @@ void select_log(const LogControlOptions& options) {
     fmt::print("{}\n", base::printable(left_out.get<std::string>()));
 }
 
-CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name, const char* description) {
+CLI::App* add_log_command(CLI::App& log, const LogOptions& options, const char* name, const char* description) {
   auto* const command = log.add_subcommand(name, description);
   add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control);
   return command;
@@ -98,23 +98,24 @@ CLI::App* add_command(CLI::App& log, const LogOptions& options, const char* name
 
 void add_log_control(CLI::App& log) {
   const auto options = std::make_shared<LogControlOptions>();
-  auto* const list = add_command(log, options, "list", "the logs of a running navcald: name, bytes, begin, end");
+  auto* const list =
+      add_log_command(log, options, "list", "the logs of a running navcald: name, bytes, begin, end");
   list->add_flag("--json", options->json);
   list->callback([options] { show_logs(*options); });
 
-  auto* const fetch = add_command(log, options, "fetch", "downloads finished logs from a running navcald");
+  auto* const fetch = add_log_command(log, options, "fetch", "downloads finished logs from a running navcald");
   add_valued(fetch, "FILE", "NAME", options->files);
   add_valued(fetch, "--to", "DIR", options->to)->required();
   fetch->callback([options] { fetch_logs(*options); });
 
-  add_command(log, options, "start", "begins a new log file after navcal log stop")->callback([options] {
+  add_log_command(log, options, "start", "begins a new log file after navcal log stop")->callback([options] {
     order_log(*options, "log.start");
   });
-  add_command(log, options, "stop",
-              "ends the log file; navcald runs on without a log until log start or a restart")
+  add_log_command(log, options, "stop",
+                  "ends the log file; navcald runs on without a log until log start or a restart")
       ->callback([options] { order_log(*options, "log.stop"); });
 
-  auto* const select = add_command(log, options, "select", "what the log of a running navcald leaves out");
+  auto* const select = add_log_command(log, options, "select", "what the log of a running navcald leaves out");
   auto* const leave_out = select->add_option("--leave-out", options->leave_out);
   leave_out->option_text("PART")->take_all()->allow_extra_args(false);
   select->add_flag("--everything", options->everything)->excludes(leave_out);

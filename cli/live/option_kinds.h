@@ -2,9 +2,22 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace navcal::cli {
+
+/// A command of `parent` and the arguments that its options fill; `run` gets them.
+template <class Arguments>
+std::pair<CLI::App*, std::shared_ptr<Arguments>> add_command(CLI::App& parent, const std::string& name,
+                                                             const std::string& description,
+                                                             void (*run)(const Arguments&)) {
+  const auto arguments = std::make_shared<Arguments>();
+  auto* const command = parent.add_subcommand(name, description);
+  command->callback([arguments, run] { run(*arguments); });
+  return {command, arguments};
+}
 
 /// An option whose value the help calls `value`: "FILE.toml".
 template <class T>

@@ -6,7 +6,6 @@
 #include <boost/asio/signal_set.hpp>
 #include <cstdio>
 #include <exception>
-#include <memory>
 
 #include "base/interruptible.h"
 #include "cli/live/commands.h"
@@ -42,13 +41,12 @@ void run(const emulation::PlayArguments& arguments) {
 }  // namespace
 
 void add_play(CLI::App& app) {
-  auto* command = app.add_subcommand("play", "play a recording into pseudo-terminals at its own pace");
-  const auto arguments = std::make_shared<emulation::PlayArguments>();
+  const auto [command, arguments] = add_command<emulation::PlayArguments>(
+      app, "play", "play a recording into pseudo-terminals at its own pace", run);
   command->add_option("FILE", arguments->file)->required();
   command->add_option("--dir", arguments->dir)->required();
   add_number(command, "--speed", 0.001, 1e6, arguments->speed);
   add_number(command, "--wait", 0.0, 86400.0, arguments->wait_s);
-  command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace navcal::cli

@@ -76,14 +76,12 @@ void run_command(const PortsCommandOptions& options) {
 
 /// Adds `navcal ports command`, which gives the instrument at a port of a running navcald a command.
 void add_ports_command(CLI::App* ports) {
-  const auto options = std::make_shared<PortsCommandOptions>();
-  auto* const command =
-      ports->add_subcommand("command", "gives the instrument at a port of a running navcald a command");
+  const auto [command, options] = add_command<PortsCommandOptions>(
+      *ports, "command", "gives the instrument at a port of a running navcald a command", run_command);
   add_valued(command, "PORT", "PORT", options->port);
   add_valued(command, "NAME", "NAME", options->name);
   command->add_flag("--force", options->force);
   add_valued(command, "--control", "SOCKET [/run/navcal/control]", options->control);
-  command->callback([options] { run_command(*options); });
 }
 
 using OrderedJson = nlohmann::ordered_json;

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <cmath>
@@ -13,7 +12,6 @@
 #include <ctime>
 #include <iostream>
 #include <map>
-#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -257,13 +255,12 @@ void send_calibration(const SendCalibrationOptions& options) {
 }  // namespace
 
 void add_ports_send_calibration(CLI::App& ports) {
-  const auto options = std::make_shared<SendCalibrationOptions>();
-  auto* const command = ports.add_subcommand("send-calibration", "writes a compass calibration to an autopilot");
+  const auto [command, options] = add_command<SendCalibrationOptions>(
+      ports, "send-calibration", "writes a compass calibration to an autopilot", send_calibration);
   command->add_option("LINK", options->link)->required();
   add_valued(command, "--parameters", "FILE", options->parameters)->required();
   add_number(command, "--baud", 300, 4'000'000, options->baud);
   command->add_flag("--yes", options->yes);
-  command->callback([options] { send_calibration(*options); });
 }
 
 }  // namespace navcal::cli

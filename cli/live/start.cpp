@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <memory>
 #include <optional>
 
 #include "base/interruptible.h"
@@ -237,9 +236,8 @@ void start(const StartCommandOptions& options) {
 }  // namespace
 
 void add_start(CLI::App& app) {
-  auto* const command =
-      app.add_subcommand("start", "configures, checks and runs navcald for a common vehicle or device");
-  const auto options = std::make_shared<StartCommandOptions>();
+  const auto [command, options] = add_command<StartCommandOptions>(
+      app, "start", "configures, checks and runs navcald for a common vehicle or device", start);
   StartRequest& request = options->request;
   add_valued(command, "--for", "bluerov2|ros2|gpsd|nmea", request.kind)
       ->check(CLI::IsMember(std::vector<std::string>{"bluerov2", "ros2", "gpsd", "nmea"}))
@@ -252,7 +250,6 @@ void add_start(CLI::App& app) {
   add_repeatable(command, "--in", "KIND=/TOPIC [imu=/imu/data mag=/imu/mag fix=/fix]", request.topics)->take_all();
   add_number(command, "--port", 1, 65535, request.status_port);
   add_number(command, "--seconds", 1.0, 3600.0, options->seconds);
-  command->callback([options] { start(*options); });
 }
 
 }  // namespace navcal::cli

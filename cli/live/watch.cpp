@@ -112,13 +112,12 @@ void watch(const WatchCommandOptions& options) {
 }  // namespace
 
 void add_watch(CLI::App& app) {
-  auto* command = app.add_subcommand("watch", "live view of a running navcald");
-  const auto options = std::make_shared<WatchCommandOptions>();
+  const auto [command, options] =
+      add_command<WatchCommandOptions>(app, "watch", "live view of a running navcald", watch);
   add_defaulted(command, "--host", options->host);
   add_number(command, "--port", 1, 65535, options->port);
   command->add_flag("--json", options->json);
   command->add_option("--seconds", options->seconds)->check(CLI::NonNegativeNumber);
-  command->callback([options] { watch(*options); });
 }
 
 }  // namespace navcal::cli

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
+#include "base/append_format.h"
 #include "base/printable.h"
 #include "cli/live/watch_text.h"
 
@@ -30,9 +30,9 @@ std::string estimate_of(const Json& calibrator) {
   for (const auto& [key, value] : values.items()) {
     if (!value.is_number()) continue;
     if (!out.empty()) out += ", ";
-    fmt::format_to(std::back_inserter(out), "{} {:.4g}", base::printable(key), value.get<double>());
+    base::append_format(out, "{} {:.4g}", base::printable(key), value.get<double>());
     const double std = number(stds, key.c_str());
-    if (std::isfinite(std)) fmt::format_to(std::back_inserter(out), " +- {:.2g}", std);
+    if (std::isfinite(std)) base::append_format(out, " +- {:.2g}", std);
   }
   return out;
 }
@@ -67,9 +67,9 @@ void append_tcm2(std::vector<std::string>& lines, const Json& tcm2) {
   if (!tcm2.is_object()) return;
   std::string line = fmt::format("{:<14}{}", "tcm2's own", text(tcm2, "state"));
   if (const auto score = tcm2.find("score"); score != tcm2.end() && score->is_object()) {
-    fmt::format_to(std::back_inserter(line), ", score horizontal {} vertical {} of 9, magnitude {}",
-                   shown(number(*score, "horizontal"), 0), shown(number(*score, "vertical"), 0),
-                   shown(number(*score, "magnitude"), 1));
+    base::append_format(line, ", score horizontal {} vertical {} of 9, magnitude {}",
+                        shown(*score, "horizontal", 0), shown(*score, "vertical", 0),
+                        shown(*score, "magnitude", 1));
   }
   lines.push_back(std::move(line));
 }
@@ -136,18 +136,17 @@ void WatchCalibration::append(std::string& out) const {
   append_tcm2(lines, tcm2_);
   // Its state names the whole score.
   if (pni_.is_object()) lines.push_back(fmt::format("{:<14}{}", "pni's own", text(pni_, "state")));
-  fmt::format_to(std::back_inserter(out), "active calibration: {}", name_);
+  base::append_format(out, "active calibration: {}", name_);
   if (heading_.is_object() && number(heading_, "blocks") > 0) {
-    fmt::format_to(std::back_inserter(out),
-                   "; held-out heading: {} deg raw, {} active, {} by the newest estimates",
-                   shown(number(heading_, "before_rms_deg"), 2), shown(number(heading_, "in_force_rms_deg"), 2),
-                   shown(number(heading_, "after_rms_deg"), 2));
+    base::append_format(out, "; held-out heading: {} deg raw, {} active, {} by the newest estimates",
+                        shown(heading_, "before_rms_deg", 2), shown(heading_, "in_force_rms_deg", 2),
+                        shown(heading_, "after_rms_deg", 2));
   }
   out += '\n';
   const auto rose = compass_rose(rose_);
   for (std::size_t i = 0; i < std::max(lines.size(), rose.size()); ++i) {
     const std::string left = i < rose.size() ? rose[i] : std::string(kColumns, ' ');
-    fmt::format_to(std::back_inserter(out), "{}  {}\n", left, i < lines.size() ? lines[i] : "");
+    base::append_format(out, "{}  {}\n", left, i < lines.size() ? lines[i] : "");
   }
 }
 

@@ -21,4 +21,8 @@ std::string shown(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
+std::string shown(const nlohmann::json& object, const char* key, int decimals) {
+  return shown(number(object, key), decimals);
+}
+
 }  // namespace navcal::cli

@@ -17,5 +17,7 @@ namespace navcal::cli {
 
 /// "-" for what is not there.
 [[nodiscard]] std::string shown(double value, int decimals);
+/// The number at `key`.
+[[nodiscard]] std::string shown(const nlohmann::json& object, const char* key, int decimals);
 
 }  // namespace navcal::cli

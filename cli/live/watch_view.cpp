@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
 #include "base/angles.h"
 #include "base/append_format.h"
@@ -25,29 +24,28 @@ double error_m(const nlohmann::json& nav) {
 /// fix.
 void append_navigation(std::string& out, const nlohmann::json& nav) {
   if (!nav.is_object()) return;
-  fmt::format_to(std::back_inserter(out), "{:<12}", "navigation");
+  base::append_format(out, "{:<12}", "navigation");
   if (text(nav, "position") == "none" || std::isnan(number(nav, "lat"))) {
     out += "no position before the first fix";
   } else {
-    fmt::format_to(std::back_inserter(out), "{} {}, off by {} m", shown(number(nav, "lat"), 7),
-                   shown(number(nav, "lon"), 7), shown(error_m(nav), 1));
+    base::append_format(out, "{} {}, off by {} m", shown(nav, "lat", 7), shown(nav, "lon", 7),
+                        shown(error_m(nav), 1));
   }
-  fmt::format_to(std::back_inserter(out), ", heading {} deg true, {} m/s, depth {} m",
-                 shown(number(nav, "heading_rad") * base::kDegreesPerRadian, 1),
-                 shown(number(nav, "speed_m_s"), 2), shown(number(nav, "depth_m"), 2));
+  base::append_format(out, ", heading {} deg true, {} m/s, depth {} m",
+                      shown(number(nav, "heading_rad") * base::kDegreesPerRadian, 1), shown(nav, "speed_m_s", 2),
+                      shown(nav, "depth_m", 2));
   if (!std::isnan(number(nav, "altitude_m"))) {
-    fmt::format_to(std::back_inserter(out), ", {} m above the floor", shown(number(nav, "altitude_m"), 1));
+    base::append_format(out, ", {} m above the floor", shown(nav, "altitude_m", 1));
   }
   if (const auto lock = nav.find("bottom_lock"); lock != nav.end() && lock->is_boolean())
     out += lock->get<bool>() ? ", bottom lock" : ", NO BOTTOM LOCK";
   if (is_reckoned(nav)) {
-    fmt::format_to(std::back_inserter(out), ", RECKONED: {} s and {} m since the last fix",
-                   shown(number(nav, "since_fix_s"), 0), shown(number(nav, "since_fix_m"), 0));
+    base::append_format(out, ", RECKONED: {} s and {} m since the last fix", shown(nav, "since_fix_s", 0),
+                        shown(nav, "since_fix_m", 0));
   }
   if (const double within_s = number(nav, "surface_within_s"); is_reckoned(nav) && !std::isnan(within_s)) {
     out += within_s > 0 ? fmt::format(", surface within {} s", shown(within_s, 0)) : std::string(", SURFACE NOW");
-    fmt::format_to(std::back_inserter(out), " (error at the next fix {} m)",
-                   shown(number(nav, "predicted_error_m"), 0));
+    base::append_format(out, " (error at the next fix {} m)", shown(nav, "predicted_error_m", 0));
   }
   out += '\n';
 }
@@ -55,11 +53,20 @@ void append_navigation(std::string& out, const nlohmann::json& nav) {
 /// The reckoned position in a few words; empty while there are fixes, or none yet.
 std::string reckoned_words(const nlohmann::json& nav) {
   if (!nav.is_object() || !is_reckoned(nav)) return {};
-  return fmt::format("reckoned {} {} off by {} m", shown(number(nav, "lat"), 7), shown(number(nav, "lon"), 7),
+  return fmt::format("reckoned {} {} off by {} m", shown(nav, "lat", 7), shown(nav, "lon", 7),
                      shown(error_m(nav), 1));
 }
 
 using Json = nlohmann::json;
+
+using ByDevice = std::map<std::string, Json>;
+
+/// The newest reports of a class.
+const ByDevice& newest(const std::map<std::string, ByDevice>& reports, const std::string& kind) {
+  static const ByDevice kNone;
+  const auto found = reports.find(kind);
+  return found == reports.end() ? kNone : found->second;
+}
 
 constexpr std::string_view kRed = "\x1b[1;37;41m", kPlain = "\x1b[0m";
 
@@ -71,7 +78,7 @@ std::string log_state(const Json& log) {
   if (!file.empty()) out += " " + file.substr(file.rfind('/') + 1);
   base::append_format(out, ", {} MB, {} kB queued", shown(number(log, "bytes") * 1e-6, 1),
                       shown(number(log, "queued") * 1e-3, 0));
-  if (number(log, "lost") > 0) base::append_format(out, ", {} records LOST", shown(number(log, "lost"), 0));
+  if (number(log, "lost") > 0) base::append_format(out, ", {} records LOST", shown(log, "lost", 0));
   return out;
 }
 
@@ -164,72 +171,60 @@ void WatchView::append_ports(std::string& out) const {
   for (const auto& [device, port] : ports_) {
     const auto rate = frames_per_s_.find(device);
     base::append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>8}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
-                        shown(rate == frames_per_s_.end() ? NAN : rate->second, 1),
-                        shown(number(port, "frames"), 0), shown(number(port, "unused"), 0),
-                        shown(number(port, "bad"), 0), shown(number(port, "skipped"), 0),
-                        shown(number(port, "lost"), 0), text(port, "reason"));
+                        shown(rate == frames_per_s_.end() ? NAN : rate->second, 1), shown(port, "frames", 0),
+                        shown(port, "unused", 0), shown(port, "bad", 0), shown(port, "skipped", 0),
+                        shown(port, "lost", 0), text(port, "reason"));
   }
 }
 
 void WatchView::append_attitude(std::string& out) const {
-  const auto found = last_.find("ATT");
-  if (found == last_.end()) return;
-  for (const auto& [device, att] : found->second) {
+  for (const auto& [device, att] : newest(last_, "ATT")) {
     if (att.contains("heading")) {
       std::string words = text(att, "north");
       if (const std::string source = text(att, "heading_source"); !source.empty()) words += " by " + source;
       base::append_format(out, "{:<12}heading {} deg{}{}, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
-                          shown(number(att, "heading"), 1), words.empty() ? "" : " ", words,
-                          shown(number(att, "pitch"), 1), shown(number(att, "roll"), 1),
-                          shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
+                          shown(att, "heading", 1), words.empty() ? "" : " ", words, shown(att, "pitch", 1),
+                          shown(att, "roll", 1), shown(att, "mag_len", 2), shown(att, "dip", 1));
     }
     if (att.contains("depth")) {
-      base::append_format(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device, shown(number(att, "depth"), 2),
-                          shown(number(att, "gyro_x"), 2), shown(number(att, "gyro_y"), 2),
-                          shown(number(att, "gyro_z"), 2));
+      base::append_format(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device, shown(att, "depth", 2),
+                          shown(att, "gyro_x", 2), shown(att, "gyro_y", 2), shown(att, "gyro_z", 2));
     }
   }
 }
 
 void WatchView::append_position(std::string& out) const {
-  const auto found = last_.find("TPV");
-  if (found == last_.end()) return;
-  for (const auto& [device, tpv] : found->second) {
+  for (const auto& [device, tpv] : newest(last_, "TPV")) {
     const double mode = number(tpv, "mode");
     base::append_format(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device,
                         mode >= 3   ? "3D"
                         : mode >= 2 ? "2D"
                                     : "no fix",
-                        shown(number(tpv, "lat"), 7), shown(number(tpv, "lon"), 7), shown(number(tpv, "speed"), 2),
-                        shown(number(tpv, "track"), 1), text(tpv, "time"));
+                        shown(tpv, "lat", 7), shown(tpv, "lon", 7), shown(tpv, "speed", 2), shown(tpv, "track", 1),
+                        text(tpv, "time"));
   }
 }
 
 void WatchView::append_motor(std::string& out) const {
-  if (const auto found = last_.find("MOTOR"); found != last_.end()) {
-    for (const auto& [device, motor] : found->second) {
-      base::append_format(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0),
-                          shown(number(motor, "current_A"), 2));
-      const Json fins = motor.value("fins_rad", Json::array());
-      for (const Json& fin : fins) {
-        base::append_format(out, " {}",
-                            shown(fin.is_number() ? fin.get<double>() * base::kDegreesPerRadian : NAN, 1));
-      }
-      out += " deg\n";
+  for (const auto& [device, motor] : newest(last_, "MOTOR")) {
+    base::append_format(out, "{:<12}{} rpm, {} A, fins", device, shown(motor, "rpm", 0),
+                        shown(motor, "current_A", 2));
+    const Json fins = motor.value("fins_rad", Json::array());
+    for (const Json& fin : fins) {
+      base::append_format(out, " {}",
+                          shown(fin.is_number() ? fin.get<double>() * base::kDegreesPerRadian : NAN, 1));
     }
+    out += " deg\n";
   }
 }
 
 void WatchView::append_battery(std::string& out) const {
-  const auto found = last_.find("BATTERY");
-  if (found == last_.end()) return;
-  for (const auto& [device, battery] : found->second) {
+  for (const auto& [device, battery] : newest(last_, "BATTERY")) {
     base::append_format(out, "{:<12}{} V, {} A, {} Ah (+-{}) or {} % left, {} min, {} m{}\n", "battery",
-                        shown(number(battery, "voltage_V"), 1), shown(number(battery, "current_A"), 2),
-                        shown(number(battery, "charge_Ah"), 2), shown(number(battery, "charge_std_Ah"), 2),
-                        shown(number(battery, "charge_percent"), 0), shown(number(battery, "time_left_s") / 60, 0),
-                        shown(number(battery, "range_left_m"), 0),
-                        battery.value("low", Json()) == true ? ", LOW" : "");
+                        shown(battery, "voltage_V", 1), shown(battery, "current_A", 2),
+                        shown(battery, "charge_Ah", 2), shown(battery, "charge_std_Ah", 2),
+                        shown(battery, "charge_percent", 0), shown(number(battery, "time_left_s") / 60, 0),
+                        shown(battery, "range_left_m", 0), battery.value("low", Json()) == true ? ", LOW" : "");
   }
 }
 
@@ -274,14 +269,11 @@ std::string WatchView::line() const {
                         shown(rate == frames_per_s_.end() ? NAN : rate->second, 1));
   }
   for (const char* kind : {"ATT", "TPV"}) {
-    const auto found = last_.find(kind);
-    if (found == last_.end()) continue;
-    for (const auto& [device, report] : found->second) {
-      if (report.contains("heading"))
-        base::append_format(out, "heading {}; ", shown(number(report, "heading"), 1));
-      if (report.contains("depth")) base::append_format(out, "depth {}; ", shown(number(report, "depth"), 2));
+    for (const auto& [device, report] : newest(last_, kind)) {
+      if (report.contains("heading")) base::append_format(out, "heading {}; ", shown(report, "heading", 1));
+      if (report.contains("depth")) base::append_format(out, "depth {}; ", shown(report, "depth", 2));
       if (report.contains("lat")) {
-        base::append_format(out, "{} {}; ", shown(number(report, "lat"), 7), shown(number(report, "lon"), 7));
+        base::append_format(out, "{} {}; ", shown(report, "lat", 7), shown(report, "lon", 7));
       }
     }
   }

@@ -146,8 +146,8 @@ Delay delay_of_turns(const Mission& mission, const config::VehicleSettings& vehi
 }
 
 bool is_at_limit(const Vector3& fins_rad, double limit_rad) {
-  return std::any_of(fins_rad.begin(), fins_rad.end(),
-                     [&](double fin_rad) { return std::abs(fin_rad) > limit_rad - kAtLimit_rad; });
+  return std::ranges::any_of(fins_rad,
+                             [&](double fin_rad) { return std::abs(fin_rad) > limit_rad - kAtLimit_rad; });
 }
 
 double saturated_share(const Mission& mission, const config::VehicleSettings& vehicle) {

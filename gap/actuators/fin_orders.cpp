@@ -79,7 +79,7 @@ double FinOrders::misfit() const {
 }
 
 bool FinOrders::obeys() const {
-  return std::all_of(smoothers_.begin(), smoothers_.end(), [](const auto& smoother) { return smoother.obeys(); });
+  return std::ranges::all_of(smoothers_, [](const auto& smoother) { return smoother.obeys(); });
 }
 
 void FinOrders::round_off(std::array<ServoOrders, kWays>& orders) {

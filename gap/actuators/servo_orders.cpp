@@ -90,7 +90,7 @@ constexpr std::array<double, 3> kLate_s{0.0005, 0.003, 0.01};
 ServoSmoother::ServoSmoother(std::span<const double> report_times_s, std::span<const double> order_times_s,
                              double lag_s, std::span<const double> commands_rad)
     : lag_s_(lag_s) {
-  const auto first = std::upper_bound(order_times_s.begin(), order_times_s.end(), report_times_s.front());
+  const auto first = std::ranges::upper_bound(order_times_s, report_times_s.front());
   auto order = first;
   double at_s = report_times_s.front();
   const auto add = [&](bool is_order, double time_s) {

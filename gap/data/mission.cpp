@@ -34,7 +34,7 @@ void set_in_order(std::vector<Reading>& readings, const std::vector<std::int64_t
     readings[i].time_s = static_cast<double>(times_ns[i] - begin_ns) * 1e-9;
   }
   const auto by_time = [](const Reading& a, const Reading& b) { return a.time_s < b.time_s; };
-  std::stable_sort(readings.begin(), readings.end(), by_time);
+  std::ranges::stable_sort(readings, by_time);
   const auto same = [](const Reading& a, const Reading& b) { return a.time_s == b.time_s; };
   readings.erase(std::unique(readings.begin(), readings.end(), same), readings.end());
 }
@@ -47,7 +47,7 @@ void fill_silences(std::vector<Reading>& readings, const std::vector<Reading>& p
   std::ranges::transform(readings, times_s.begin(), &Reading::time_s);
   const auto silences = silences_of(Quantity::heading, times_s, until_s);
   for (const Reading& part : parts) {
-    const bool needed = std::any_of(silences.begin(), silences.end(), [&](const Silence& silence) {
+    const bool needed = std::ranges::any_of(silences, [&](const Silence& silence) {
       return part.time_s >= silence.from_s && part.time_s <= silence.until_s;
     });
     if (needed) readings.push_back(part);
@@ -96,7 +96,7 @@ std::vector<double> Mission::fix_times_s() const {
 }
 
 bool Mission::is_silent(Quantity quantity, double time_s) const {
-  return std::any_of(silences.begin(), silences.end(), [&](const Silence& silence) {
+  return std::ranges::any_of(silences, [&](const Silence& silence) {
     return silence.quantity == quantity && silence.contains(time_s, duration_s);
   });
 }
@@ -128,13 +128,13 @@ std::string Mission::shortcoming() const {
     return reason;
   }
   const auto is_missing = [&](Quantity quantity) {
-    return std::any_of(silences.begin(), silences.end(), [&](const Silence& silence) {
+    return std::ranges::any_of(silences, [&](const Silence& silence) {
       return silence.quantity == quantity && silence.from_s <= 0 && silence.until_s >= duration_s;
     });
   };
   using enum Quantity;
   const auto measured = {heading, field, tilt, rates, force, depth, fixes};
-  if (std::all_of(measured.begin(), measured.end(), is_missing)) {
+  if (std::ranges::all_of(measured, is_missing)) {
     return "no instrument in the recording shows how the vehicle moved: nothing can be said";
   }
   const double judged_s = std::min(judged_until_s, duration_s) - judged_from_s;
@@ -214,8 +214,8 @@ void MissionGatherer::add(const instruments::GpsSample& sample, std::int64_t tim
 }
 
 void MissionGatherer::add(const instruments::MotorSample& sample, std::int64_t time_ns) {
-  const bool has_fins = std::all_of(sample.fins_rad.begin(), sample.fins_rad.end(),
-                                    [](const auto& fin_rad) { return fin_rad.has_value(); });
+  const bool has_fins =
+      std::ranges::all_of(sample.fins_rad, [](const auto& fin_rad) { return fin_rad.has_value(); });
   Vector3 fins_rad{};
   for (std::size_t i = 0; has_fins && i < 3; ++i) fins_rad[i] = *sample.fins_rad[i];
   if (sample.rpm && sample.current_A && has_fins) {
@@ -243,7 +243,7 @@ void MissionGatherer::add(const instruments::ScalarSample& sample, std::int64_t 
   };
   if (!is_output("output") && !is_output("motor") && !is_output("servo")) return;
   auto& outputs = mission_.outputs;
-  const auto place = std::lower_bound(outputs.begin(), outputs.end(), name);
+  const auto place = std::ranges::lower_bound(outputs, name);
   if (outputs.size() < kMostOutputs && (place == outputs.end() || *place != name)) outputs.emplace(place, name);
 }
 

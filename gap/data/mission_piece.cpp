@@ -8,9 +8,8 @@ namespace {
 
 template <class Reading>
 std::vector<Reading> readings_between(const std::vector<Reading>& all, double from_s, double until_s) {
-  const auto before = [](const Reading& reading, double time_s) { return reading.time_s < time_s; };
-  const auto first = std::lower_bound(all.begin(), all.end(), from_s, before);
-  std::vector<Reading> some(first, std::lower_bound(first, all.end(), until_s, before));
+  std::vector<Reading> some(std::ranges::lower_bound(all, from_s, {}, &Reading::time_s),
+                            std::ranges::lower_bound(all, until_s, {}, &Reading::time_s));
   for (Reading& reading : some) reading.time_s -= from_s;
   return some;
 }

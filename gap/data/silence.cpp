@@ -36,25 +36,15 @@ std::vector<double> times_of(Quantity quantity, const Mission& mission) {
   using enum Quantity;
   switch (quantity) {
     case heading:
-      return times_with(mission.compass, [](const CompassReading& reading) {
-        return reading.heading_rad.has_value() || is_measured(reading.field_uT);
-      });
-    case field:
       return times_with(mission.compass,
-                        [](const CompassReading& reading) { return is_measured(reading.field_uT); });
-    case tilt:
-      return times_with(mission.compass,
-                        [](const CompassReading& reading) { return std::isfinite(reading.roll_rad); });
-    case rates:
-      return times_with(mission.card,
-                        [](const CardReading& reading) { return std::isfinite(reading.gyro_rad_s[0]); });
+                        [](const auto& word) { return word.heading_rad || is_measured(word.field_uT); });
+    case field: return times_with(mission.compass, [](const auto& word) { return is_measured(word.field_uT); });
+    case tilt: return times_with(mission.compass, [](const auto& word) { return std::isfinite(word.roll_rad); });
+    case rates: return times_with(mission.card, [](const auto& r) { return std::isfinite(r.gyro_rad_s[0]); });
     case second_yaw_rate:
-      return times_with(mission.card,
-                        [](const CardReading& reading) { return std::isfinite(reading.gyro_rad_s[3]); });
-    case force:
-      return times_with(mission.card, [](const CardReading& reading) { return is_measured(reading.force_m_s2); });
-    case depth:
-      return times_with(mission.card, [](const CardReading& reading) { return std::isfinite(reading.depth_m); });
+      return times_with(mission.card, [](const auto& r) { return std::isfinite(r.gyro_rad_s[3]); });
+    case force: return times_with(mission.card, [](const auto& r) { return is_measured(r.force_m_s2); });
+    case depth: return times_with(mission.card, [](const auto& r) { return std::isfinite(r.depth_m); });
     case fixes: return mission.fix_times_s();
     case motor: return times_with(mission.motor, [](const MotorReading&) { return true; });
   }
@@ -101,9 +91,8 @@ void add_empty_frames(Mission& mission) {
   const double period_s = 1 / mission.instruments.imu.timing.rate_Hz;
   const auto times_s = times_with(mission.card, [](const CardReading&) { return true; });
   CardReading empty;
-  for (std::size_t i = 0; i < 4; ++i) empty.gyro_rad_s[i] = kSilentValue;
-  empty.force_m_s2.fill(kSilentValue);
-  empty.depth_m = kSilentValue;
+  using enum Quantity;
+  for (const Quantity each : {rates, second_yaw_rate, force, depth}) silence(each, empty);
   std::vector<CardReading> frames;
   for (const Silence& each : silences_of(Quantity::rates, times_s, mission.duration_s)) {
     for (double time_s = each.from_s + period_s / 2; time_s < each.until_s - period_s / 2; time_s += period_s) {
@@ -143,9 +132,8 @@ const std::array<Named, 12>& named_silences() {
 template <class Add>
 void for_each_named(std::vector<Quantity> silent, Add add) {
   for (const Named& named : named_silences()) {
-    const bool all = std::all_of(named.quantities.begin(), named.quantities.end(), [&](Quantity quantity) {
-      return std::find(silent.begin(), silent.end(), quantity) != silent.end();
-    });
+    const bool all = std::ranges::all_of(
+        named.quantities, [&](Quantity quantity) { return std::ranges::find(silent, quantity) != silent.end(); });
     if (!all) continue;
     add(named);
     for (const Quantity quantity : named.quantities) std::erase(silent, quantity);

@@ -65,17 +65,16 @@ void write_strengths(const Question& question, const Contribution& planned, Next
                               shown(before[weakest]), shown(after[weakest])});
   }
   const auto value = [](const std::optional<double>& strength) { return strength.value_or(1e9); };
-  std::stable_sort(next.strengths.begin(), next.strengths.end(),
-                   [&](const auto& a, const auto& b) { return value(a.before) > value(b.before); });
+  std::ranges::stable_sort(next.strengths,
+                           [&](const auto& a, const auto& b) { return value(a.before) > value(b.before); });
 }
 
 std::string separating_sentence(const NextMission& next) {
-  const auto weakest =
-      std::min_element(next.pairs.begin(), next.pairs.end(), [](const PlannedPair& a, const PlannedPair& b) {
-        return std::min(a.separation_nats, a.reverse_nats) < std::min(b.separation_nats, b.reverse_nats);
-      });
+  const auto weakest = std::ranges::min_element(next.pairs, [](const PlannedPair& a, const PlannedPair& b) {
+    return std::min(a.separation_nats, a.reverse_nats) < std::min(b.separation_nats, b.reverse_nats);
+  });
   const auto is_open = [](const PlannedSet& set) { return set.probability >= kProbableFrom; };
-  if (std::count_if(next.sets.begin(), next.sets.end(), is_open) < 2) {
+  if (std::ranges::count_if(next.sets, is_open) < 2) {
     return fmt::format(
         "The recordings leave one set probable, {} ({:.2f}). This mission of {:.1f} minutes tests it against the "
         "others: it stays the answer, if it is true, with probability {:.2f}.",
@@ -137,11 +136,11 @@ void write_sentence(NextMission& next) {
 /// Whether each two sets that are still probable become distinguishable.
 bool probable_are_apart(const NextMission& next) {
   const auto is_probable = [&](const std::vector<std::string>& effects) {
-    return std::any_of(next.sets.begin(), next.sets.end(), [&](const PlannedSet& set) {
+    return std::ranges::any_of(next.sets, [&](const PlannedSet& set) {
       return set.effects == effects && set.probability >= kProbableFrom;
     });
   };
-  return std::all_of(next.pairs.begin(), next.pairs.end(), [&](const PlannedPair& pair) {
+  return std::ranges::all_of(next.pairs, [&](const PlannedPair& pair) {
     return !is_probable(pair.a) || !is_probable(pair.b) ||
            std::min(pair.separation_nats, pair.reverse_nats) >= kObservable_nats;
   });

@@ -52,7 +52,7 @@ Planner::Planner(const Question& question, const Rehearser& rehearser, const con
   const auto cannot = [&](const Segment& segment) {
     return !rehearser_.can(compose({{0, 0}}, {segment}, regime_).mission);
   };
-  alphabet_.erase(std::remove_if(alphabet_.begin(), alphabet_.end(), cannot), alphabet_.end());
+  std::erase_if(alphabet_, cannot);
   learn_alphabet();
   if (known_.empty()) {
     throw std::invalid_argument("no manoeuvre stays within the limits: allow more depth, speed or rate of turn");

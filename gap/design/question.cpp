@@ -243,7 +243,7 @@ std::vector<WeighedSet> weighed(std::span<const WeighedSet> sets, double counted
     if (!there && set.probability >= counted_from && counted.size() < kMostSets) counted.push_back(set);
   }
   const auto is_none = [](const WeighedSet& set) { return set.effects.empty(); };
-  if (std::none_of(counted.begin(), counted.end(), is_none)) counted.push_back({{}, 1e-6});
+  if (std::ranges::none_of(counted, is_none)) counted.push_back({{}, 1e-6});
   double total = 0;
   for (const WeighedSet& set : counted) total += set.probability;
   for (WeighedSet& set : counted) set.probability /= total;

@@ -18,7 +18,7 @@ void add_rows(const Eigen::MatrixXd& design, Eigen::Index from, Eigen::Index cou
 }  // namespace
 
 std::ptrdiff_t part_at(std::span<const double> began_s, double time_s) {
-  return std::upper_bound(began_s.begin(), began_s.end(), time_s) - began_s.begin() - 1;
+  return std::ranges::upper_bound(began_s, time_s) - began_s.begin() - 1;
 }
 
 PlannedPath ReferenceRehearser::path(const config::Mission& mission, double longest_s,
@@ -43,7 +43,7 @@ Rehearsal ReferenceRehearser::rehearse(const config::Mission& mission, double du
   if (part_began_s.empty() || course.time_s.empty()) return rehearsal;
   base::in_parallel(problem_.threads, part_began_s.size(), [&](std::size_t part) {
     const auto row_of = [&](double time_s) {
-      const auto interval = std::lower_bound(course.time_s.begin(), course.time_s.end(), time_s);
+      const auto interval = std::ranges::lower_bound(course.time_s, time_s);
       return std::min<Eigen::Index>(interval - course.time_s.begin(), replay.intervals());
     };
     const Eigen::Index from = row_of(part_began_s[part]);

@@ -46,7 +46,7 @@ Library::Library(std::span<const std::string> excluded) {
     auto effect = entry.make();
     const auto& description = effect->description();
     if (description.place == sim::EffectPlace::lines) continue;
-    held_.push_back(std::find(excluded.begin(), excluded.end(), entry.name) == excluded.end());
+    held_.push_back(std::ranges::find(excluded, entry.name) == excluded.end());
     first_.push_back(static_cast<Eigen::Index>(unknowns_.size()));
     const Steps steps = steps_of(description.kind);
     for (std::size_t i = 0; i < description.parameters.size(); ++i) {

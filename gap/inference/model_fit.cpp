@@ -159,7 +159,7 @@ ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem, Lin
   std::vector<Eigen::Index> moved(Library::kBiases);
   std::iota(moved.begin(), moved.end(), Eigen::Index{0});
   moved.insert(moved.end(), members.begin(), members.end());
-  const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
+  const bool curved = std::ranges::any_of(set, [&](std::size_t e) { return library.is_curved(e); });
   Eigen::VectorXd best_at;
   double best = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < (curved ? kCurvedLinearisations : kLinearisations); ++i) {
@@ -169,7 +169,7 @@ ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem, Lin
     const auto has_arrived = [&](Eigen::Index j) {
       return step[j] <= kArrived_sigma * std::sqrt(posterior.covariance(j, j));
     };
-    if (i >= kLinearisations && std::all_of(moved.begin(), moved.end(), has_arrived)) break;
+    if (i >= kLinearisations && std::ranges::all_of(moved, has_arrived)) break;
     linear = relinearise(problem.model, std::move(linear), at, members);
     if (!curved) continue;
     const double here = SubsetEvidence(problem.about(linear))(set);

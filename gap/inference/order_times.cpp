@@ -28,8 +28,9 @@ constexpr double kFree = 0.1, kBiasesFree = 10;
 template <class Reading>
 std::vector<Reading> within(const std::vector<Reading>& readings, double from_s, double until_s) {
   std::vector<Reading> kept;
-  std::copy_if(readings.begin(), readings.end(), std::back_inserter(kept),
-               [&](const Reading& reading) { return reading.time_s >= from_s && reading.time_s < until_s; });
+  std::ranges::copy_if(readings, std::back_inserter(kept), [&](const Reading& reading) {
+    return reading.time_s >= from_s && reading.time_s < until_s;
+  });
   return kept;
 }
 
@@ -109,7 +110,7 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
     cost[i] = residual.squaredNorm() - score.dot(free.solve(score));
   });
   // The phase between those evaluated, by the parabola through the best and its neighbours.
-  const auto best = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
   const double before = cost[(best + kPhases - 1) % kPhases], after = cost[(best + 1) % kPhases];
   const double bend = before - 2 * cost[best] + after;
   const double shift = bend > 0 ? (before - after) / (2 * bend) : 0;

@@ -29,8 +29,7 @@ void ScoreTable::set_final(const EffectSubset& subset, double log_odds) {
 }
 
 const EffectSubset& ScoreTable::leader() const {
-  return std::max_element(scores_.begin(), scores_.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
+  return std::ranges::max_element(scores_, [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
@@ -39,8 +38,8 @@ std::vector<EffectSubset> ScoreTable::leading(std::size_t size, std::size_t coun
   for (const auto& [subset, score] : scores_) {
     if (subset.size() == size) subsets.push_back(subset);
   }
-  std::sort(subsets.begin(), subsets.end(),
-            [&](const EffectSubset& a, const EffectSubset& b) { return scores_.at(a) > scores_.at(b); });
+  std::ranges::sort(subsets,
+                    [&](const EffectSubset& a, const EffectSubset& b) { return scores_.at(a) > scores_.at(b); });
   if (subsets.size() > count) subsets.resize(count);
   return subsets;
 }
@@ -48,11 +47,11 @@ std::vector<EffectSubset> ScoreTable::leading(std::size_t size, std::size_t coun
 namespace {
 
 bool has(const EffectSubset& subset, std::size_t effect) {
-  return std::find(subset.begin(), subset.end(), effect) != subset.end();
+  return std::ranges::find(subset, effect) != subset.end();
 }
 
 EffectSubset with(EffectSubset subset, std::size_t effect) {
-  subset.insert(std::upper_bound(subset.begin(), subset.end(), effect), effect);
+  subset.insert(std::ranges::upper_bound(subset, effect), effect);
   return subset;
 }
 
@@ -113,7 +112,7 @@ void SubsetSearch::seed() {
 void SubsetSearch::expand(std::size_t size) {
   std::vector<EffectSubset> subsets = scores_.leading(size, kLeadingSubsets);
   for (const std::size_t effect : held_) {
-    const bool there = std::find(subsets.begin(), subsets.end(), EffectSubset{effect}) != subsets.end();
+    const bool there = std::ranges::find(subsets, EffectSubset{effect}) != subsets.end();
     if (size == 1 && library_.is_curved(effect) && !there) subsets.push_back({effect});
   }
   // One fit per thread at a time: each holds a design matrix of its own.

@@ -194,7 +194,7 @@ void gather_products(const Eigen::MatrixXd& errors, Eigen::Index from, Eigen::Ma
 
 PredictionErrorFilter PredictionErrorFilter::learnt(std::span<const Eigen::MatrixXd> noise, Eigen::Index from) {
   if (noise.empty()) return {};
-  const bool whole = std::all_of(noise.begin(), noise.end(), [](const auto& rows) { return rows.allFinite(); });
+  const bool whole = std::ranges::all_of(noise, [](const auto& rows) { return rows.allFinite(); });
   PredictionErrorFilter filter;
   // The second pass replaces missing values by better predictions.
   for (int pass = 0; pass < (whole ? 1 : 2); ++pass) {

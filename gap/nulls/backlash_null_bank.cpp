@@ -81,8 +81,8 @@ bool has_backlash(const Library& library, const EffectSubset& effects) {
 BacklashNullBank backlash_null_bank(const ModelFit& found, const RepeatedMission& repeated,
                                     const ResidualModel& model, const BankOptions& options) {
   EffectSubset backlashes;
-  std::copy_if(found.effects.begin(), found.effects.end(), std::back_inserter(backlashes),
-               [&](std::size_t effect) { return model.library.is_backlash(effect); });
+  std::ranges::copy_if(found.effects, std::back_inserter(backlashes),
+                       [&](std::size_t effect) { return model.library.is_backlash(effect); });
   const auto widths = parameter_indices(model.library, backlashes);
   const auto nulls = simulate_feasible(options, Seeds::backlash_null_bank, [&](std::size_t, std::uint64_t seed) {
     return simulate_backlash_null(found, repeated, model, widths, seed);

@@ -119,7 +119,7 @@ bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
          is_factor(w.grid_factor, kEvidenceChannels) && is_factor(w.fix_factor, kFixChannels) &&
          is_shaped(bank.gram, unknowns, unknowns) && is_shaped(bank.scores, unknowns, bank.missions) &&
          bank.powers.size() == static_cast<std::size_t>(bank.missions) &&
-         std::all_of(bank.powers.begin(), bank.powers.end(), [](double power) { return std::isfinite(power); }) &&
+         std::ranges::all_of(bank.powers, [](double power) { return std::isfinite(power); }) &&
          is_statistics(bank.explained_rms) && is_statistics(bank.left);
 }
 
@@ -136,7 +136,7 @@ std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder)
     const auto used = at->last_write_time(unreadable);
     if (!unreadable) found.emplace_back(used, at->path());
   }
-  std::sort(found.begin(), found.end(), std::greater<>());
+  std::ranges::sort(found, std::greater<>());
   std::vector<std::filesystem::path> files(found.size());
   std::ranges::transform(found, files.begin(), [](auto& each) { return std::move(each.second); });
   return files;

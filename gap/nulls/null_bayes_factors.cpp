@@ -24,14 +24,14 @@ std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, con
                                           const Priors& priors) {
   std::vector<std::pair<double, Eigen::Index>> others;
   for (Eigen::Index k = Library::kBiases; k < linear.gram.rows(); ++k) {
-    if (std::find(members.begin(), members.end(), k) != members.end()) continue;
+    if (std::ranges::find(members, k) != members.end()) continue;
     double most = 0;
     for (const Eigen::Index j : members) {
       most = std::max(most, priors.spike[k] * std::abs(linear.gram(j, k)) / std::sqrt(linear.gram(j, j)));
     }
     if (most > kLikeness_sigma) others.emplace_back(-most, k);
   }
-  std::sort(others.begin(), others.end());
+  std::ranges::sort(others);
   for (std::size_t i = 0; i < std::min(kMostLikenesses, others.size()); ++i) members.push_back(others[i].second);
   return members;
 }

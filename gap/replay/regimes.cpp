@@ -248,10 +248,7 @@ Eigen::MatrixXd explained_rms(const Innovations& innovations, const Trajectory10
       const auto& driver = drivers[static_cast<std::size_t>(k)];
       double square = 0;
       if (driver.size() > 0) {
-        Eigen::MatrixXd here(n, driver.cols());
-        for (Eigen::Index i = 0; i < n; ++i) {
-          here.row(i) = driver.row(static_cast<Eigen::Index>(series.rows[static_cast<std::size_t>(i)]));
-        }
+        Eigen::MatrixXd here = driver(series.rows, Eigen::all);
         // The rows of a channel have another mean than the course. A driver that hardly varies in them would
         // otherwise stand for a constant.
         if (static_cast<std::size_t>(k) != constant) here = without_mean(std::move(here));

@@ -62,12 +62,12 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
   };
   const double first_s = std::max({mission.card.front().time_s, begins_s(mission.compass, Quantity::heading),
                                    mission.motor.front().time_s, mission.judged_from_s});
-  const auto first = std::find_if(mission.card.begin(), mission.card.end(),
-                                  [&](const CardReading& reading) { return reading.time_s >= first_s; });
+  const auto first =
+      std::ranges::find_if(mission.card, [&](const CardReading& reading) { return reading.time_s >= first_s; });
   const double half_frame_s = std::min(0.5 / mission.instruments.imu.timing.rate_Hz, kInterval_s / 2);
   begin_s_ = (first != mission.card.end() ? first->time_s : first_s) - half_frame_s;
-  const auto word = std::find_if(mission.compass.begin(), mission.compass.end(),
-                                 [&](const CompassReading& reading) { return reading.time_s >= begin_s_; });
+  const auto word = std::ranges::find_if(
+      mission.compass, [&](const CompassReading& reading) { return reading.time_s >= begin_s_; });
   if (word != mission.compass.end()) {
     const double phase_s = std::fmod(word->time_s - begin_s_, kInterval_s);
     compass_shift_s_ = kInterval_s / 2 - phase_s;

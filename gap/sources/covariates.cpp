@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "base/angles.h"
+#include "base/text_rows.h"
 
 namespace navcal::gap {
+
+const char* basic_covariates();  // basic_covariates.txt
+
 namespace {
 
 constexpr double kOneDegree_rad = 1 / base::kDegreesPerRadian;
@@ -91,27 +94,6 @@ Eigen::VectorXd since_step(const Trajectory10Hz& course, double tau_s) {
   return result;
 }
 
-constexpr std::array<std::string_view, 20> kBasic{"constant",
-                                                  "cos(heading)",
-                                                  "sin(heading)",
-                                                  "cos(2 heading)",
-                                                  "sin(2 heading)",
-                                                  "yaw_rate",
-                                                  "abs(yaw_rate)",
-                                                  "roll",
-                                                  "pitch",
-                                                  "speed",
-                                                  "motor_current",
-                                                  "temperature",
-                                                  "depth",
-                                                  "rudder",
-                                                  "elevator",
-                                                  "time",
-                                                  "change of yaw_rate",
-                                                  "change of speed",
-                                                  "change of rudder",
-                                                  "yaw_rate x speed"};
-
 /// Collects covariates.
 class Collection {
  public:
@@ -152,8 +134,9 @@ class Collection {
   }
 
   [[nodiscard]] std::vector<Covariate> taken() && {
+    const auto basic = base::text_rows(basic_covariates(), "\n");
     for (Covariate& each : all_) {
-      each.is_basic = std::find(kBasic.begin(), kBasic.end(), each.name) != kBasic.end();
+      each.is_basic = std::ranges::any_of(basic, [&](const auto& row) { return row.first == each.name; });
     }
     return std::move(all_);
   }

@@ -132,7 +132,7 @@ std::vector<Choice> chosen(const Terms& terms) {
     Choice leader;
     leader.evidence = before.evidence;
     for (Eigen::Index j = 0; j < terms.traces.score.size(); ++j) {
-      if (std::find(before.terms.begin(), before.terms.end(), j) != before.terms.end()) continue;
+      if (std::ranges::find(before.terms, j) != before.terms.end()) continue;
       for (const double coefficient : kCoefficients) {
         Choice next = before;
         next.terms.push_back(j);
@@ -163,7 +163,7 @@ SourceFit fit_of(const ErrorSource& source, const Terms& terms, const Choice& ch
 /// Whether an error of a source may follow a covariate.
 bool may_follow(const ErrorSource& source, const Covariate& covariate, CovariateSet set) {
   const auto has = [&](std::string_view family) {
-    return std::find(covariate.families.begin(), covariate.families.end(), family) != covariate.families.end();
+    return std::ranges::find(covariate.families, family) != covariate.families.end();
   };
   if (!covariate.varies || (set == CovariateSet::basic && !covariate.is_basic)) return false;
   if (has("constant") && source.is_biased) return false;

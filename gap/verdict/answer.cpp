@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <set>
 
 #include "gap/inference/subset_evidence.h"
@@ -30,8 +31,7 @@ std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found,
   const double alone = evidence.separation(members, found.best.mean, {});
   for (std::size_t other = 0; other < library.size(); ++other) {
     const auto& set = found.best.effects;
-    if (other == effect || !library.holds(other) || std::find(set.begin(), set.end(), other) != set.end())
-      continue;
+    if (other == effect || !library.holds(other) || std::ranges::find(set, other) != set.end()) continue;
     const double left = evidence.separation(members, found.best.mean, parameter_indices(library, {other}));
     if (left < kObservable_nats && left < kConfusedBelow * alone) {
       all.push_back({std::string(library[other].name), tie_breaker(library[effect], library[other]), left});
@@ -109,10 +109,10 @@ std::optional<std::array<double, 2>> dead_reckoning_m_per_100m(const std::vector
 
 /// Writes the sentence of an explained gap, and the manoeuvres that separate its effects from others.
 void write_explained(Diagnosis& answer) {
-  std::vector<std::string_view> names;
-  for (const EffectFinding& effect : answer.effects) names.push_back(effect.name);
-  answer.sentence = fmt::format("{} {} the gap (probability {:.2f})", fmt::join(names, " and "),
-                                names.size() == 1 ? "explains" : "explain", answer.effects.back().probability);
+  answer.sentence =
+      fmt::format("{} {} the gap (probability {:.2f})",
+                  fmt::join(answer.effects | std::views::transform(&EffectFinding::name), " and "),
+                  answer.effects.size() == 1 ? "explains" : "explain", answer.effects.back().probability);
   if (answer.gap.pooled.closed) {
     answer.sentence += fmt::format(": {:.0f} % of it goes away{}.", 100 * std::min(1.0, *answer.gap.pooled.closed),
                                    answer.gap.held_out ? " on missions held out" : "");
@@ -133,9 +133,7 @@ void write_explained(Diagnosis& answer) {
 }
 
 std::string words_of(const Alternative& alternative, std::string_view between = " and ") {
-  std::vector<std::string> names;
-  for (const EffectFinding& effect : alternative.effects) names.push_back(effect.words());
-  return fmt::format("{}", fmt::join(names, between));
+  return fmt::format("{}", fmt::join(alternative.effects | std::views::transform(&EffectFinding::words), between));
 }
 
 /// Manoeuvres of the effects that only one of two sets holds.
@@ -181,9 +179,9 @@ Alternative alternative_of(const ModelFit& fit, const Library& library, double p
 }
 
 bool shows_gap(const Diagnosis& answer) {
-  return answer.gap.pooled.closed ||
-         std::any_of(answer.where.begin(), answer.where.end(),
-                     [](const WhereEntry& entry) { return entry.p_value <= kSignificantAgainstExactBelow; });
+  return answer.gap.pooled.closed || std::ranges::any_of(answer.where, [](const WhereEntry& entry) {
+           return entry.p_value <= kSignificantAgainstExactBelow;
+         });
 }
 
 void write_unknown(UnknownKind kind, std::string_view reason, Diagnosis& answer) {
@@ -224,7 +222,7 @@ void write_findings(const FoundEffects& result, const Library& library, Diagnosi
   const Evidence evidence = evidence_of(found.best.linear, result.priors);
   for (const auto& [effect, probability] : included) {
     const auto& set = found.best.effects;
-    const bool member = std::find(set.begin(), set.end(), effect) != set.end();
+    const bool member = std::ranges::find(set, effect) != set.end();
     if (!member && probability < kReportedFrom) continue;
     EffectFinding finding{std::string(library[effect].name), std::min(probability, 1.0), {}, {}};
     finding.manoeuvre = library[effect].manoeuvre.text();
@@ -235,11 +233,8 @@ void write_findings(const FoundEffects& result, const Library& library, Diagnosi
     }
     answer.candidates.push_back(std::move(finding));
   }
-  const auto by_probability = [](const EffectFinding& a, const EffectFinding& b) {
-    return a.probability > b.probability;
-  };
-  std::stable_sort(answer.effects.begin(), answer.effects.end(), by_probability);
-  std::stable_sort(answer.candidates.begin(), answer.candidates.end(), by_probability);
+  std::ranges::stable_sort(answer.effects, std::ranges::greater(), &EffectFinding::probability);
+  std::ranges::stable_sort(answer.candidates, std::ranges::greater(), &EffectFinding::probability);
 }
 
 void write_gap(const std::vector<Comparison>& compared, const PooledClosure& closure, bool held_out,

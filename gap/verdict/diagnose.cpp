@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "base/parallel.h"
-#include "gap/data/instruments_alone.h"
 #include "gap/inference/biases.h"
 #include "gap/inference/blocks.h"
 #include "gap/thresholds.h"
@@ -23,6 +23,8 @@
 #include "gap/verdict/study.h"
 #include "gap/verdict/verdict.h"
 #include "gap/verdict/where.h"
+#include "pipeline/pipeline.h"
+#include "record/port_matching.h"
 
 namespace navcal::gap {
 namespace {
@@ -60,7 +62,7 @@ std::vector<WhereEntry> merged(std::vector<std::vector<WhereEntry>> maps) {
   for (std::size_t rank = 0; rank < longest; ++rank) {
     for (const auto& map : maps) {
       if (rank >= map.size()) continue;
-      const auto same = std::find_if(all.begin(), all.end(), [&](const WhereEntry& other) {
+      const auto same = std::ranges::find_if(all, [&](const WhereEntry& other) {
         return other.channel == map[rank].channel && other.regime == map[rank].regime;
       });
       if (same == all.end()) {
@@ -109,7 +111,7 @@ std::vector<WhereEntry> leftover_of(const DiagnosisProblem& problem, const Found
   rest.grid.col(gyro_roll).setZero();
   rest.fixes.leftCols<2>().setZero();
   for (WhereEntry& entry : significant_against_exact_model(map_of(), bank.left, bank.explained_rms)) {
-    const bool is_there = std::any_of(leftover.begin(), leftover.end(), [&](const WhereEntry& other) {
+    const bool is_there = std::ranges::any_of(leftover, [&](const WhereEntry& other) {
       return other.channel == entry.channel && other.regime == entry.regime;
     });
     if (!is_there) leftover.push_back(std::move(entry));
@@ -334,11 +336,38 @@ FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& 
   }
   if (!problem.others.empty()) {
     compare_recordings(problem, result, names, answer);
-    const bool differs = std::any_of(answer.differences.begin(), answer.differences.end(),
-                                     [](const EffectDifference& each) { return each.differs; });
+    const bool differs =
+        std::ranges::any_of(answer.differences, [](const EffectDifference& each) { return each.differs; });
     if (differs || answer.verdict == Verdict::unknown) search_apart(problem, answer);
   }
   return result;
+}
+
+/// Compares the instruments of a recording with each other where one is missing that the diagnosis needs
+/// (docs/calibration.md). It estimates iron about the compass from its own field, deviation from the gyro or
+/// from course over ground, scale and bias of the gyro, and delays. `stated` is the configuration to use
+/// instead of the recording's own. `field` gives the declination, where it is known. `progress` gets 0 to 1.
+/// Throws record::BadRecording.
+calib::Report instruments_alone(const std::filesystem::path& file, const std::optional<config::Settings>& stated,
+                                const EarthField& field, const std::function<void(double)>& progress,
+                                const record::TimeWindow& window) {
+  const auto recording = record::Recording::open(file, window);
+  config::Settings settings = stated.value_or(recording->settings());
+  const record::PortMatch ports(recording->settings(), settings);
+  settings.calibration.enabled = settings.calibration.automatic = true;
+  settings.navigation.enabled = false;
+  if (field.source != EarthField::Source::fitted) {
+    const auto& [north_uT, east_uT, down_uT] = field.north_east_down_uT;
+    settings.environment.declination_rad = std::atan2(east_uT, north_uT);
+  }
+  pipeline::Pipeline pipeline(settings);
+  pipeline::Sink nobody;
+  while (const auto entry = recording->next()) {
+    ports.give(*entry, pipeline, nobody);
+    progress(recording->progress());
+  }
+  pipeline.finish_calibration(nobody);
+  return pipeline.calibration_report();
 }
 
 /// Reports a recording that cannot be compared with a model: its instruments are compared with each other

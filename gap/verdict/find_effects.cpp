@@ -95,8 +95,8 @@ bool is_seen_in(const Prepared& prepared, const Library& library) {
 
 bool is_seen(const DiagnosisProblem& problem) {
   return is_seen_in(problem.prepared, problem.library) ||
-         std::any_of(problem.others.begin(), problem.others.end(),
-                     [&](const Prepared* other) { return is_seen_in(*other, problem.library); });
+         std::ranges::any_of(problem.others,
+                             [&](const Prepared* other) { return is_seen_in(*other, problem.library); });
 }
 
 /// Whether simulated vehicles without a gap would show the effects found as well: null Bayes factors.
@@ -107,8 +107,8 @@ bool is_chance(const DiagnosisProblem& problem, const Linearised& nominal, const
   // Linearising again far from the nominal inflates the evidence: the nominal Jacobian, by which the nulls are
   // scored, scores the recording, too.
   const InferenceProblem inference = problem.inference(nominal, searched.priors);
-  const bool curved = std::any_of(best.effects.begin(), best.effects.end(),
-                                  [&](std::size_t effect) { return problem.library.is_curved(effect); });
+  const bool curved =
+      std::ranges::any_of(best.effects, [&](std::size_t effect) { return problem.library.is_curved(effect); });
   const double gain = curved ? best.log_odds : gain_over_none(best.effects, inference.about(nominal));
   return !stands_out(gain, null_bayes_factors(best.effects, problem.repeated(), inference,
                                               {kBacklashMissions, problem.request.bank_seed, problem.threads}));

@@ -72,7 +72,7 @@ std::vector<double> resampled_closures(const std::vector<Comparison>& comparison
     const double gap = was / floor.measurements - level;
     if (gap > 0) closures.push_back(1 - (is / floor.measurements - level) / gap);
   }
-  std::sort(closures.begin(), closures.end());
+  std::ranges::sort(closures);
   return closures;
 }
 

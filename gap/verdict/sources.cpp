@@ -192,7 +192,7 @@ class RecordingSources {
 void add(std::vector<SourceFinding> findings, std::vector<SourceFinding>& all) {
   for (SourceFinding& finding : findings) {
     const auto same =
-        std::find_if(all.begin(), all.end(), [&](const SourceFinding& each) { return each.name == finding.name; });
+        std::ranges::find_if(all, [&](const SourceFinding& each) { return each.name == finding.name; });
     if (same == all.end()) {
       all.push_back(std::move(finding));
     } else {
@@ -205,13 +205,13 @@ void add(std::vector<SourceFinding> findings, std::vector<SourceFinding>& all) {
 void sort_by_gain(Diagnosis& answer) {
   for (SourceFinding& finding : answer.sources) {
     const auto is_among = [&](const std::vector<WhereEntry>& cells) {
-      return std::any_of(finding.errors.begin(), finding.errors.end(), [&](const ErrorFinding& error) {
+      return std::ranges::any_of(finding.errors, [&](const ErrorFinding& error) {
         return std::ranges::any_of(cells, [&](const WhereEntry& cell) { return cell.channel == error.channel; });
       });
     };
     finding.closes_nothing = !answer.where.empty() && is_among(answer.map) && !is_among(answer.where);
   }
-  std::stable_sort(answer.sources.begin(), answer.sources.end(), [](const auto& a, const auto& b) {
+  std::ranges::stable_sort(answer.sources, [](const auto& a, const auto& b) {
     return a.closes_nothing == b.closes_nothing ? a.gain_nats > b.gain_nats : b.closes_nothing;
   });
 }
@@ -237,7 +237,7 @@ void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
     if (full.gain_nats > sources[i].gain_nats) sources[i] = std::move(full);
   }
   sort_by_gain(answer);
-  const auto leader = std::find_if(descriptions.begin(), descriptions.end(), [&](const auto& fits) {
+  const auto leader = std::ranges::find_if(descriptions, [&](const auto& fits) {
     return !fits.empty() && fits.front().source->name == sources.front().name;
   });
   if (leader != descriptions.end()) answer.proposal = first.proposal(*leader, holdouts);
@@ -251,7 +251,7 @@ void put_source_first(Diagnosis& answer) {
   const ErrorFinding& error = source.errors.front();
   if (error.channel.empty()) return;
   const auto is_there = [&](const WhereEntry& entry) { return entry.channel == error.channel; };
-  if (std::none_of(answer.where.begin(), answer.where.end(), is_there)) {
+  if (std::ranges::none_of(answer.where, is_there)) {
     // Without a gap, evidence of exp(g) has at most the probability exp(-g) (Markov's inequality), for each
     // source.
     const double chance = static_cast<double>(error_sources().size()) * std::exp(-source.gain_nats);

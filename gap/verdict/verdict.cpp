@@ -28,7 +28,7 @@ bool closes(const Grounds& grounds) {
   const auto& best = grounds.found.best;
   for (std::size_t effect = 0; effect < grounds.library.size(); ++effect) {
     const double strength = strength_of(grounds.library, effect, best.mean);
-    const bool named = std::find(best.effects.begin(), best.effects.end(), effect) != best.effects.end();
+    const bool named = std::ranges::find(best.effects, effect) != best.effects.end();
     if (named ? !(strength > kBeyondWideTolerance) : strength > kLargestUnnamed) return false;
   }
   return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosedFrom;
@@ -146,13 +146,13 @@ Judgement judge(const Grounds& grounds) {
   if (!closes(grounds)) reasons.push_back(closure_words(grounds.closure, set));
   is_outside = add_strengths(grounds, reasons) || is_outside || !closes(grounds);
   add_leftover(grounds, reasons);
-  is_outside = is_outside || std::any_of(grounds.leftover.begin(), grounds.leftover.end(), is_left);
+  is_outside = is_outside || std::ranges::any_of(grounds.leftover, is_left);
   add_rivals(grounds, set, reasons);
   judgement.verdict = reasons.empty() ? Verdict::explained : Verdict::unknown;
   judgement.kind = is_outside ? UnknownKind::outside : UnknownKind::cannot_say;
   const auto& candidates = grounds.found.candidates;
-  const auto none = std::find_if(candidates.begin(), candidates.end(),
-                                 [](const Candidate& candidate) { return candidate.effects.empty(); });
+  const auto none =
+      std::ranges::find_if(candidates, [](const Candidate& candidate) { return candidate.effects.empty(); });
   const bool may_be_none = none != candidates.end() && none->probability > kNoGapBelow;
   const bool nothing_seen = grounds.where.empty() && std::ranges::none_of(grounds.leftover, is_left);
   if (!reasons.empty() && may_be_none && nothing_seen) {

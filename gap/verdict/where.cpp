@@ -18,7 +18,7 @@ constexpr double kPiece_s = 10;
 constexpr std::size_t kMostPoints = 600;
 
 std::size_t index_of(std::string_view name, const std::vector<std::string_view>& names) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
 std::size_t channel_index(std::string_view name) {
@@ -158,8 +158,8 @@ WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixX
     const auto [c, k] = cell_of(entry);
     return (before(c, k) * before(c, k) - after(c, k) * after(c, k)) / nulls.mean_square(c, overall_regime());
   };
-  return *std::max_element(map.begin(), map.end(),
-                           [&](const WhereEntry& a, const WhereEntry& b) { return change(a) < change(b); });
+  return *std::ranges::max_element(
+      map, [&](const WhereEntry& a, const WhereEntry& b) { return change(a) < change(b); });
 }
 
 std::vector<ChangePoint> change_points(const Innovations& innovations, const Trajectory10Hz& course,
@@ -217,8 +217,8 @@ Scatter scatter(const WhereEntry& where, const Innovations& before, const Innova
   const std::size_t channel = channel_index(where.channel);
   const ChannelSeries first = series_of(channel, before, course, fix_times_s);
   const ChannelSeries second = series_of(channel, after, course, fix_times_s);
-  const auto* const driver = std::find_if(std::begin(kDrivers), std::end(kDrivers),
-                                          [&](const Driver& d) { return d.regime == where.regime; });
+  const auto* const driver =
+      std::ranges::find_if(kDrivers, [&](const Driver& d) { return d.regime == where.regime; });
   const bool known = driver != std::end(kDrivers);
   Scatter result{where.channel,
                  where.unit,

@@ -67,7 +67,7 @@ std::string words_for(const Errors& errors, const std::vector<std::size_t>& grou
   const std::string list = fmt::format("{} and {}", fmt::join(names, ", "), last);
   if (group.size() == 2) return words_for_pair(errors, group[0], group[1], list);
   const auto relative_of = [&](std::size_t k) { return errors.relative(k); };
-  const bool go_together = std::all_of(group.begin(), group.end(), [&](std::size_t i) {
+  const bool go_together = std::ranges::all_of(group, [&](std::size_t i) {
     const auto at = [&](std::size_t k) { return errors.values[static_cast<Eigen::Index>(k)]; };
     return errors.rho(group[0], i) * at(group[0]) * at(i) > 0;
   });
@@ -98,7 +98,7 @@ std::vector<Direction> untold_directions(std::span<const Parameter> parameters, 
         direction.parameters.push_back(i);
       }
     }
-    std::sort(direction.parameters.begin(), direction.parameters.end());
+    std::ranges::sort(direction.parameters);
     direction.words = words_for(errors, direction.parameters);
     directions.push_back(std::move(direction));
   }

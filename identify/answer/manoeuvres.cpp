@@ -84,8 +84,7 @@ std::function<sim::ActuatorValues(double, const sim::Body&)> commands_of(const c
     }
     const auto allocated = allocator->allocate(request);
     sim::ActuatorValues values = sim::ActuatorValues::neutral(of);
-    const bool is_off =
-        std::all_of(row.shares[leg].begin(), row.shares[leg].end(), [](double x) { return x == 0; });
+    const bool is_off = std::ranges::all_of(row.shares[leg], [](double x) { return x == 0; });
     if (is_off) return values;
     values.thrusters = allocated.thruster_commands;
     values.surfaces_rad = allocated.surfaces_rad;
@@ -242,8 +241,8 @@ std::vector<ManoeuvreAdvice> advised_manoeuvres(const PredictionErrorProblem& pr
       // This vehicle cannot do it: its motion leaves all bounds, or nothing is left to measure.
     }
   }
-  std::sort(all.begin(), all.end(),
-            [](const auto& a, const auto& b) { return a.std_after / a.std_before < b.std_after / b.std_before; });
+  std::ranges::sort(
+      all, [](const auto& a, const auto& b) { return a.std_after / a.std_before < b.std_after / b.std_before; });
   return all;
 }
 

@@ -244,13 +244,13 @@ Prediction predict(const PredictionRequest& request, const std::function<void(do
     Forecast forecast(track.bodies[start]);
     for (std::size_t step = 1; step <= kAfter.back() && track.is_measured(start + step); ++step) {
       forecast.advance(by, track.actuators, kGrid_s * static_cast<double>(start + step - 1));
-      if (std::find(kOfLayout.begin(), kOfLayout.end(), step) != kOfLayout.end()) {
+      if (std::ranges::find(kOfLayout, step) != kOfLayout.end()) {
         const sim::Body &by_layout = forecast[Predictor::layout], &measured = track.bodies[start + step];
         const Eigen::Vector3d apart_m = by_layout.position_m - measured.position_m;
         all.of_layout.push_back({kGrid_s * static_cast<double>(step), apart_m.x(), apart_m.y(),
                                  base::wrapped(by_layout.euler_rad.z() - measured.euler_rad.z())});
       }
-      const auto due = std::find(kAfter.begin(), kAfter.end(), step);
+      const auto due = std::ranges::find(kAfter, step);
       if (due == kAfter.end()) continue;
       const auto i = static_cast<std::size_t>(due - kAfter.begin());
       ++all.errors[i].starts;
@@ -273,7 +273,7 @@ Prediction predict(const PredictionRequest& request, const std::function<void(do
   if (all.errors[0].starts == 0)
     throw std::invalid_argument("attitude, velocity and position are nowhere measured for a second on end");
   const auto have = [&](bool Track::*what) {
-    return std::all_of(judged.begin(), judged.end(), [&](const Track& track) { return track.*what; });
+    return std::ranges::all_of(judged, [&](const Track& track) { return track.*what; });
   };
   all.by_fixes = have(&Track::by_fixes);
   for (std::size_t i = 0; i < kAfter.size(); ++i)

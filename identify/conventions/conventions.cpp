@@ -46,8 +46,8 @@ std::vector<Convention> mend_time_zones(const config::Layout& layout, RecordedMo
     for (double& time_s : signal.times_s) span.times.push_back(&time_s);
   }
   std::vector<Convention> found;
-  const auto most = std::max_element(spans.begin(), spans.end(),
-                                     [](const Span& a, const Span& b) { return a.times.size() < b.times.size(); });
+  const auto most = std::ranges::max_element(
+      spans, [](const Span& a, const Span& b) { return a.times.size() < b.times.size(); });
   if (most == spans.end()) return found;
   const double begin_s = *most->times.front(), end_s = *most->times.back();
   for (const Span& span : spans) {

@@ -228,7 +228,7 @@ std::vector<Suspect> suspects_of_actuators(const config::Layout& layout) {
     if (n < 2) continue;
     change("actuator_reversed", kind, fmt::format("all of {} reversed", kind), scaled_parts(part, 0, n, -1));
     change("actuator_order", kind, fmt::format("{} in the opposite order", kind),
-           [part = part](auto& values) { std::reverse((values.*part).begin(), (values.*part).end()); });
+           [part = part](auto& values) { std::ranges::reverse(values.*part); });
   }
   const auto surfaces = &sim::ActuatorValues::surfaces_rad;
   for (const auto& [unit, factor] : {std::pair{"degrees", 1 / kDegrees}, {"radians", kDegrees}})

@@ -7,7 +7,6 @@
 
 #include "base/angles.h"
 #include "base/rotation.h"
-#include "sim/layout/restoring.h"
 
 namespace navcal::identify {
 namespace {
@@ -17,8 +16,7 @@ constexpr double kFastest_m_s = 50, kFastestTurn_rad_s = 50;
 
 /// The value of the reading next to a time; nullopt: none within `within_s`.
 std::optional<double> next_to(const std::vector<Reading>& readings, double time_s, double within_s) {
-  const auto after = std::lower_bound(readings.begin(), readings.end(), time_s,
-                                      [](const Reading& reading, double time) { return reading.time_s < time; });
+  const auto after = std::ranges::lower_bound(readings, time_s, {}, &Reading::time_s);
   std::optional<double> value;
   double nearest_s = within_s;
   const auto consider = [&](const Reading& reading) {

@@ -40,8 +40,8 @@ std::string_view title_of(Simulator simulator) { return names_of(simulator).titl
 std::string_view ending_of(Simulator simulator) { return names_of(simulator).ending; }
 
 std::optional<Simulator> simulator_named(std::string_view name) {
-  const auto found = std::find_if(kSimulators.begin(), kSimulators.end(),
-                                  [&](Simulator simulator) { return name_of(simulator) == name; });
+  const auto found =
+      std::ranges::find_if(kSimulators, [&](Simulator simulator) { return name_of(simulator) == name; });
   if (found == kSimulators.end()) return std::nullopt;
   return *found;
 }

@@ -25,8 +25,8 @@ SimulatorFile simulator_file(Simulator simulator, const CorrectedModel& model) {
 namespace {
 
 const gap::EffectParameterEstimate* estimate_of(const gap::EffectFinding& finding, std::string_view parameter) {
-  const auto found = std::find_if(finding.parameters.begin(), finding.parameters.end(),
-                                  [&](const auto& estimate) { return estimate.name == parameter; });
+  const auto found =
+      std::ranges::find_if(finding.parameters, [&](const auto& estimate) { return estimate.name == parameter; });
   return found == finding.parameters.end() ? nullptr : &*found;
 }
 

@@ -58,7 +58,7 @@ std::optional<std::string> refusal(const EffectParameter& parameter, double valu
 
 std::optional<std::string> refusal_for_layout(const EffectDescription& effect) {
   constexpr std::array<std::string_view, 3> kByMotorCurrent{"accel_vibration", "adc_droop", "motor_field"};
-  if (std::find(kByMotorCurrent.begin(), kByMotorCurrent.end(), effect.name) != kByMotorCurrent.end())
+  if (std::ranges::find(kByMotorCurrent, effect.name) != kByMotorCurrent.end())
     return fmt::format("{} grows with the motor's current, which a layout does not state", effect.name);
   if (effect.place != EffectPlace::vehicle || effect.name == "water_current") return std::nullopt;
   return fmt::format(
@@ -72,7 +72,7 @@ std::string unknown_effect(std::string_view name, bool of_layout) {
   for (const EffectEntry& entry : effect_table()) known.emplace_back(entry.name);
   if (of_layout) {
     for (const LayoutEffectDescription& about : layout_effects()) known.emplace_back(about.name);
-    std::sort(known.begin(), known.end());
+    std::ranges::sort(known);
     known.erase(std::unique(known.begin(), known.end()), known.end());
   }
   return "there is no such effect" + config::suggestion_or_all(name, known);

@@ -14,9 +14,9 @@ EffectSet::EffectSet(const EffectSet& other)
 EffectSet& EffectSet::operator=(const EffectSet& other) { return *this = EffectSet(other); }
 
 Effect& EffectSet::add(std::unique_ptr<Effect> effect, const Interval& when) {
-  const auto later =
-      std::upper_bound(members_.begin(), members_.end(), effect->description().order,
-                       [](int order, const Member& b) { return order < b.effect->description().order; });
+  const auto later = std::ranges::upper_bound(members_, effect->description().order, {}, [](const Member& member) {
+    return member.effect->description().order;
+  });
   return *members_.insert(later, {std::move(effect), when})->effect;
 }
 

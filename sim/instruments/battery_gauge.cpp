@@ -2,7 +2,6 @@
 #include "sim/instruments/battery_gauge.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "protocols/nmea_vehicle.h"

@@ -98,7 +98,7 @@ pd0::VariableLeader variable_leader(const DopplerPing& ping) {
 }  // namespace
 
 bool DopplerPing::has_lock() const {
-  return std::all_of(velocity_m_s.begin(), velocity_m_s.end(), [](const auto& one) { return one.has_value(); });
+  return std::ranges::all_of(velocity_m_s, [](const auto& one) { return one.has_value(); });
 }
 
 void DopplerLog::power_on(std::int64_t t_ns) {

@@ -26,7 +26,7 @@ constexpr std::uint16_t kSolutionValid = 2;
 constexpr std::uint8_t kReferenceTime = 0xD5;
 
 bool has(const std::vector<std::uint8_t>& fields, std::uint8_t descriptor) {
-  return std::find(fields.begin(), fields.end(), descriptor) != fields.end();
+  return std::ranges::find(fields, descriptor) != fields.end();
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "protocols/mip.h"
 #include "protocols/mip_commands.h"
 #include "sim/instruments/device.h"
-#include "sim/noise.h"
 #include "sim/state.h"
 
 namespace navcal::sim {

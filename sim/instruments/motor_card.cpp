@@ -32,7 +32,7 @@ void MotorCard::obey(std::int64_t t_ns, const protocols::Frame& command) {
   const auto wanted = motor::decode_command(command.bytes);
   if (!wanted) return;
   const auto beyond = [](double fin) { return std::abs(fin) > motor::kFinLimit_deg; };
-  if (std::any_of(wanted->fins_deg.begin(), wanted->fins_deg.end(), beyond)) {
+  if (std::ranges::any_of(wanted->fins_deg, beyond)) {
     ++refused_;
     return;
   }

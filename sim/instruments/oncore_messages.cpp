@@ -69,7 +69,7 @@ std::vector<std::uint8_t> bb_message() {
   oncore::VisibleSatellites satellites;
   satellites.visible = static_cast<std::uint8_t>(kSky.size());
   satellites.count = kSky.size();
-  std::transform(kSky.begin(), kSky.end(), satellites.satellites.begin(), [](const SkySatellite& satellite) {
+  std::ranges::transform(kSky, satellites.satellites.begin(), [](const SkySatellite& satellite) {
     return oncore::VisibleSatellites::Satellite{satellite.prn, 0, satellite.elevation_deg, satellite.azimuth_deg,
                                                 0};
   });

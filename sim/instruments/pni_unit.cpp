@@ -143,8 +143,7 @@ std::vector<std::uint8_t> PniUnit::data(std::int64_t t_ns) {
   // The field in level axes, which yaw with the vehicle.
   const Vector3 level = R_world_from_body({roll_rad, pitch_rad, 0}) * field;
   const auto asked = [&](Component component) {
-    return std::find(components_.begin(), components_.end(), static_cast<std::uint8_t>(component)) !=
-           components_.end();
+    return std::ranges::find(components_, static_cast<std::uint8_t>(component)) != components_.end();
   };
   trax::Data data;
   if (asked(Component::heading))

@@ -7,7 +7,6 @@
 #include "protocols/trax.h"
 #include "sim/instruments/device.h"
 #include "sim/instruments/electronics.h"
-#include "sim/noise.h"
 #include "sim/state.h"
 
 namespace navcal::sim {

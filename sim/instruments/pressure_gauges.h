@@ -7,7 +7,6 @@
 #include "protocols/keller.h"
 #include "protocols/paroscientific.h"
 #include "sim/instruments/device.h"
-#include "sim/noise.h"
 #include "sim/state.h"
 
 namespace navcal::sim {

@@ -211,8 +211,7 @@ bool UbxReceiver::set(const ubx::MessageRate& rate) {
   }
   const bool has =
       options_.generation != Generation::six || (rate.code != ubx::kNavPvt && rate.code != ubx::kNavSat);
-  const bool known =
-      std::find(std::begin(kUbxMessages), std::end(kUbxMessages), rate.code) != std::end(kUbxMessages);
+  const bool known = std::ranges::find(kUbxMessages, rate.code) != std::end(kUbxMessages);
   if (!has || !known) return false;
   configuration_.epochs[rate.code] = rate.epochs;
   return true;

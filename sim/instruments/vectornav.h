@@ -8,7 +8,6 @@
 #include "protocols/vectornav_lines.h"
 #include "sim/instruments/device.h"
 #include "sim/instruments/electronics.h"
-#include "sim/noise.h"
 #include "sim/state.h"
 
 namespace navcal::sim {

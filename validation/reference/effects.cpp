@@ -45,7 +45,7 @@ void add(const Effect& effect, ParameterDeviations& deviations) {
   if (kind == nullptr)
     throw std::invalid_argument("no effect is called \"" + effect.name + "\"; known are " + known_effects());
   for (const auto& [key, value] : effect.parameters) {
-    const auto at = std::find(kind->parameters.begin(), kind->parameters.end(), key);
+    const auto at = std::ranges::find(kind->parameters, key);
     if (at == kind->parameters.end())
       throw std::invalid_argument(effect.name + " has no parameter \"" + key + "\"; it has " +
                                   listed(kind->parameters));

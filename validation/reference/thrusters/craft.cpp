@@ -263,7 +263,7 @@ Vector6 Craft::momentum() const {
 
 bool Craft::finite() const {
   const auto is_bounded = [](double number) { return std::abs(number) < 1e6; };
-  return std::all_of(y_.begin(), y_.end(), is_bounded);
+  return std::ranges::all_of(y_, is_bounded);
 }
 
 }  // namespace navcal::reference::thrusters

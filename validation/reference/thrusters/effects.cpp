@@ -26,17 +26,17 @@ constexpr std::array<std::string_view, 26> kInstrumentEffects{
 
 std::vector<CraftEffectKind> all_effects() {
   std::vector<CraftEffectKind> kinds{
-      {"thrust_scale", Scope::thruster, true, {"scale"}},
-      {"thruster_offset", Scope::thruster, true, {"half_range"}},
+      {"thrust_scale", Scope::thruster, true, {"scale"}, false},
+      {"thruster_offset", Scope::thruster, true, {"half_range"}, false},
       {"thruster_lag", Scope::thruster, true, {"tau_s"}},
       {"thruster_dead_band", Scope::thruster, true, {"half_range"}},
       {"actuator_reversed", Scope::thruster, true, {}},
       {"actuator_dead", Scope::thruster, true, {}},
-      {"damping", Scope::axis, true, {"scale"}},
-      {"added_mass", Scope::axis, true, {"scale"}},
-      {"weight", Scope::vehicle, true, {"mass_kg"}},
-      {"buoyancy", Scope::vehicle, true, {"force_N"}},
-      {"gravity_shift", Scope::vehicle, true, {"x_m", "y_m", "z_m"}},
+      {"damping", Scope::axis, true, {"scale"}, false},
+      {"added_mass", Scope::axis, true, {"scale"}, false},
+      {"weight", Scope::vehicle, true, {"mass_kg"}, false},
+      {"buoyancy", Scope::vehicle, true, {"force_N"}, false},
+      {"gravity_shift", Scope::vehicle, true, {"x_m", "y_m", "z_m"}, false},
       {"battery_sag", Scope::vehicle, false, {"share"}},
       {"tether", Scope::vehicle, false, {"kg_m"}},
       {"sway_jet", Scope::vehicle, false, {"share"}},
@@ -73,11 +73,6 @@ double typical(std::string_view name, const Plan& plan) {
   return 0.004;  // propeller_fouling: a quarter of the force within a minute
 }
 
-bool is_positive(std::string_view name) {
-  return name != "thrust_scale" && name != "thruster_offset" && name != "damping" && name != "added_mass" &&
-         name != "weight" && name != "buoyancy" && name != "gravity_shift";
-}
-
 /// Place in the list of what is named "thruster.3".
 std::size_t thruster_of(const CraftEffect& effect, const Plan& plan) {
   constexpr std::string_view kPrefix = "thruster.";
@@ -94,7 +89,7 @@ std::size_t thruster_of(const CraftEffect& effect, const Plan& plan) {
 }
 
 Eigen::Index axis_of(const CraftEffect& effect) {
-  const auto* const found = std::find(kAxisNames.begin(), kAxisNames.end(), effect.of);
+  const auto* const found = std::ranges::find(kAxisNames, effect.of);
   if (found == kAxisNames.end()) throw std::invalid_argument(effect.name + ": no axis \"" + effect.of + "\"");
   return found - kAxisNames.begin();
 }
@@ -177,7 +172,7 @@ CraftEffect drawn(const CraftEffectKind& kind, double strength, const Plan& plan
   double size2 = 0;
   for (double& one : direction) {
     one = dice.normal();
-    if (is_positive(kind.name)) one = std::abs(one);
+    if (kind.is_positive) one = std::abs(one);
     size2 += one * one;
   }
   for (std::size_t i = 0; i < direction.size(); ++i)
@@ -200,7 +195,7 @@ void add(const CraftEffect& effect, const Plan& plan, Differences& differences) 
   if (effect.name == "actuator_dead") craft.rotors[thruster_of(effect, plan)].dead = true;
   double* const field = field_of(effect, plan, craft);
   for (const auto& [key, value] : effect.parameters) {
-    const auto at = std::find(kind->parameters.begin(), kind->parameters.end(), key);
+    const auto at = std::ranges::find(kind->parameters, key);
     if (at == kind->parameters.end() || !std::isfinite(value))
       throw std::invalid_argument(effect.name + " has no parameter \"" + key + "\" of this value");
     field[at - kind->parameters.begin()] += value;

@@ -23,6 +23,7 @@ struct CraftEffectKind {
   Scope scope;
   bool in_library;                           ///< false: a diagnosis must answer unknown
   std::vector<std::string_view> parameters;  ///< with their units; of an instrument those of its EffectKind
+  bool is_positive = true;                   ///< of an effect that is no instrument's: its parameters
 };
 
 /// Effects of thrusters and vehicle, and those of the instruments that such a vehicle carries (docs/trial.md).

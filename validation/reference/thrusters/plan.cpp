@@ -16,7 +16,7 @@ Eigen::Matrix3d cross_matrix(const Vector3& r) {
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
   if (at <= x.front()) return y.front();
   if (at >= x.back()) return y.back();
-  const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
+  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(x, at) - x.begin());
   return std::lerp(y[above - 1], y[above], (at - x[above - 1]) / (x[above] - x[above - 1]));
 }
 
