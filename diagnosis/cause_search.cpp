@@ -182,7 +182,7 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
   const Eigen::Index own = from.size() / prior.recordings;
   Eigen::VectorXd at = from, best_at = at, change = Eigen::VectorXd::Zero(own), best_change = change;
   double most = 0;
-  // What a bound cuts off of a change, it cuts off in all recordings.
+  // A bound that cuts off a part of a change does so in all recordings.
   const auto confine = [&] {
     const Eigen::VectorXd beyond = recording.within(at) - at;
     Eigen::VectorXd cut_off = Eigen::VectorXd::Zero(own);

@@ -52,7 +52,7 @@ class LayoutWindows final : public gap::WindowSource {
   [[nodiscard]] std::optional<RecordingPower> power_at(const Eigen::VectorXd& values) const;
   [[nodiscard]] double measurements() const;
 
-  /// Of samples and commands.
+  /// Motion by samples and commands.
   [[nodiscard]] identify::RecordedMotion motion_of(std::span<const instruments::Sample> samples,
                                                    std::span<const gap::TimedOrder> orders, std::int64_t begin_ns);
 
@@ -62,12 +62,12 @@ class LayoutWindows final : public gap::WindowSource {
   LayoutStudy study_;
   Eigen::MatrixXd new_root_;               ///< of the covariance of what is new in each window
   std::optional<double> declination_rad_;  ///< newest one
-  // Of the window taken.
+  // The window taken.
   identify::RecordedMotion motion_;
   std::unique_ptr<RecordingModel> window_;
   Likelihood linear_;  ///< of departures beyond the nominal vehicle
   RecordingPower power_;
-  // Of the windows of the nominal recordings.
+  // Windows of the nominal recordings.
   struct NominalWindow {
     Likelihood linear;
     double measurements = 0;

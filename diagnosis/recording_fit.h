@@ -35,7 +35,7 @@ struct Likelihood {
   [[nodiscard]] Likelihood about(const Eigen::VectorXd& at) const;
   /// Of the same x when a deviate root z, z ~ N(0, 1), is added to it and integrated out.
   [[nodiscard]] Likelihood blurred(const Eigen::MatrixXd& root) const;
-  /// With noise whose variance is larger by a factor.
+  /// The same with noise whose variance is larger by a factor.
   [[nodiscard]] Likelihood tempered(double factor) const;
   /// Of some of the unknowns, the others zero.
   [[nodiscard]] Likelihood of(const std::vector<Eigen::Index>& columns) const;

@@ -20,7 +20,7 @@ struct WatchedCause {
   bool is_vector = false;             ///< its strength is the norm of its components, else the largest one
   double most = kLargestStrength;     ///< strength that it can have
 
-  /// Of a change of its columns, in typical values.
+  /// Strength of a change of its columns, in typical values.
   [[nodiscard]] double strength(const Eigen::VectorXd& change) const;
 };
 

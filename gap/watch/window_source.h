@@ -30,7 +30,7 @@ struct WindowEvidence {
   Eigen::VectorXd power;    ///< of each channel: mean square of whitened residuals; NaN: not measured
 };
 
-/// What a watch looks for in windows of one vehicle, and what it expects where nothing changes.
+/// The causes that a watch looks for in windows of one vehicle, and its expectation where nothing changes.
 struct WatchModel {
   std::vector<WatchedCause> causes;
   Eigen::MatrixXd root;  ///< of the covariance of all unknowns without a change
@@ -61,18 +61,18 @@ class WindowSource {
   /// why not, and then nothing else may be called before the next one.
   [[nodiscard]] virtual std::string take(std::span<const instruments::Sample> samples,
                                          std::span<const TimedOrder> orders, std::int64_t begin_ns) = 0;
-  /// Of the window taken. To be called once, before power_with().
+  /// That of the window taken. To be called once, before power_with().
   [[nodiscard]] virtual WindowEvidence evidence() = 0;
   /// Power of the channels with these values of all unknowns, what is new in the window fitted.
   [[nodiscard]] virtual Eigen::VectorXd power_with(const Eigen::VectorXd& values) = 0;
-  /// Where the last so many windows depart, clearest first.
+  /// Places at which the last so many windows depart, clearest first.
   [[nodiscard]] virtual std::vector<WhereEntry> where(std::uint64_t windows) const = 0;
   /// Writes the verdict and causes of several windows together, which were measured from `begin_ns` on.
   virtual void look(std::span<const instruments::Sample> /*samples*/, std::span<const TimedOrder> /*orders*/,
                     std::int64_t /*begin_ns*/, WatchReport& /*report*/) {}
   /// Vehicle and recordings without a gap in a word, equal where evidence of one source serves another.
   [[nodiscard]] virtual std::string identity() const = 0;
-  /// What it has learnt of this vehicle beside the evidence, to be kept over a restart.
+  /// Knowledge of this vehicle beside the evidence, to be kept over a restart.
   [[nodiscard]] virtual std::vector<double> learnt() const { return {}; }
   /// Throws std::invalid_argument for what another source has learnt.
   virtual void restore(const std::vector<double>& learnt) {

@@ -147,7 +147,7 @@ TEST(FilteredReplay, AColumnFarFromThePassIsTheDifferenceOfTwoReplays) {
   Eigen::VectorXd elsewhere = filter.start();
   for (Eigen::Index i = 0; i < std::ssize(filter.parameters()); ++i) {
     const Parameter& parameter = filter.parameters()[static_cast<std::size_t>(i)];
-    elsewhere[i] = std::clamp(elsewhere[i] + 3 * parameter.prior_std, parameter.low, parameter.high);
+    if (parameter.name.find("force_scale") != std::string::npos) elsewhere[i] *= 0.6;
   }
   const auto pass = filter.follow(elsewhere);
   ASSERT_TRUE(pass.has_value());
