@@ -160,6 +160,11 @@ std::string LayoutWindows::take(std::span<const instruments::Sample> samples,
                                 std::span<const gap::TimedOrder> orders, std::int64_t begin_ns) {
   window_.reset();
   motion_ = motion_of(samples, orders, begin_ns);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(kTested); ++c) {
+    const auto has = [&](const identify::RecordedMotion& motion) { return !motion.channels[c].empty(); };
+    if (!has(motion_) && std::ranges::all_of(study_.recordings.nominals, has))
+      return fmt::format("no {}, which all nominal recordings have", identify::kChannelDescriptions[c].name);
+  }
   try {
     window_ = study_.source->compared(motion_, study_.bank.prior.mean);
     const auto fit = window_->fit(study_.bank.prior.mean);
