@@ -91,7 +91,7 @@ class RawClient {
     boost::asio::write(socket_, boost::asio::buffer(bytes), closed);
   }
   /// Everything until the server closes the connection, or "(still open)" behind it after the limit.
-  [[nodiscard]] std::string read_to_end(std::chrono::milliseconds limit = std::chrono::seconds(30)) {
+  [[nodiscard]] std::string read_to_end(std::chrono::milliseconds limit = std::chrono::minutes(2)) {
     const auto end = std::chrono::steady_clock::now() + limit;
     std::string all;
     for (;;) {
