@@ -31,7 +31,7 @@ template <class... Lists>
   (add(lists), ...);
   return values;
 }
-/// Of a list whose range shall include zero.
+/// The point zero, a list beside others whose range shall include it.
 inline constexpr std::array<Point, 1> kZero{};
 
 /// Range of all finite values except outliers and the outermost few in a thousand on either side; with a margin;

@@ -96,8 +96,8 @@ std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass
   const FilterModel model = model_of(nominal, at_values);
   About about{pass, model, replayed(pass, model), {}, {}, {}};
   if (about.course.white.size() == 0) return std::nullopt;
-  const auto log_det = pass.log_det();
-  if (columns.empty()) return FilterLinearised{{}, about.course.white, about.course.white.squaredNorm(), log_det};
+  FilterLinearised out{{}, about.course.white, about.course.white.squaredNorm(), pass.log_det()};
+  if (columns.empty()) return out;
   about.accelerations = accelerations(about.course, model);
   for (const FilterPass::Reading& reading : pass.readings) about.sensitivities.push_back(reading.sensitivity);
   std::vector<StepDerivatives> own;
@@ -105,7 +105,6 @@ std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass
   for (std::size_t k = 0; k < steps_.size(); ++k)
     about.transitions.emplace_back(own.empty() ? pass.steps[k].derivatives : own[k], recorded_.tilt_lag_s,
                                    steps_[k].length_s, noises_.tau_s);
-  FilterLinearised out{{}, about.course.white, about.course.white.squaredNorm(), log_det};
   out.jacobian = Eigen::MatrixXd::Zero(out.count(), std::ssize(columns));
   const auto parameters = std::ssize(parameters_);
   const Calibration stds = nuisance_stds(recorded_);
