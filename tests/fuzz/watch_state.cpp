@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "gap/watch/state_file.h"
-#include "gap/watch/window.h"
+#include "gap/watch/watch.h"
 #include "tests/fuzz/source.h"
 #include "tests/fuzz/target.h"
 
@@ -15,29 +16,33 @@ namespace navcal::fuzz::watch_state_target {
 
 using namespace navcal::gap;
 
-Eigen::Index unknowns(const Library& library) { return static_cast<Eigen::Index>(library.unknowns().size()); }
+constexpr Eigen::Index kUnknowns = 12;
 
-std::string good_text(const Library& library) {
-  const Eigen::Index n = unknowns(library);
+std::string good_text() {
   Watch::State state;
   state.change.windows = 1;
   state.change.measurements = 3000;
-  state.change.gram = Eigen::MatrixXd::Identity(n, n);
-  state.change.score = Eigen::VectorXd::Ones(n);
+  state.change.gram = Eigen::MatrixXd::Identity(kUnknowns, kUnknowns);
+  state.change.score = Eigen::VectorXd::Ones(kUnknowns);
   state.change.onsets.push_back({0, 0 * state.change.gram, 0 * state.change.score, 0});
   state.log_power = Eigen::VectorXd::Zero(3);
   state.begins_ns = {1};
+  state.of_source = {0.1, 0.2};
   state.alarm_ns = 60'000'000'000;
   return state_text(state, "model");
 }
 
-void use(const Library& library, const Watch::State& state) {
-  const Eigen::Index n = unknowns(library);
-  Priors priors;
-  priors.spike = Eigen::VectorXd::Constant(n, 0.02);
-  priors.slab = Eigen::VectorXd::Ones(n);
-  priors.model_error = Eigen::VectorXd::Zero(n);
-  ChangeDetector detector(library, priors, watched_effects(library), 1);
+/// One cause of one unknown each, and one of three.
+std::vector<WatchedCause> causes() {
+  std::vector<WatchedCause> all;
+  for (Eigen::Index column = 3; column < kUnknowns; ++column)
+    all.push_back({"single", {column}, Eigen::VectorXd::Ones(1)});
+  all.push_back({"vector", {0, 1, 2}, Eigen::VectorXd::Ones(3), true});
+  return all;
+}
+
+void use(const Watch::State& state) {
+  ChangeDetector detector(causes(), 0.02 * Eigen::MatrixXd::Identity(kUnknowns, kUnknowns), 1);
   try {
     detector.restore(state.change);
   } catch (const std::invalid_argument&) {
@@ -53,16 +58,15 @@ void use(const Library& library, const Watch::State& state) {
 }
 
 NAVCAL_FUZZ(watch_state) {
-  static const Library kLibrary({});
-  static const std::string kGood = good_text(kLibrary);
-  if (const auto state = read_state({reinterpret_cast<const char*>(data), size}, "model")) use(kLibrary, *state);
+  static const std::string kGood = good_text();
+  if (const auto state = read_state({reinterpret_cast<const char*>(data), size}, "model")) use(*state);
 
   navcal::fuzz::Source source({data, size});
   std::string text = kGood;
   for (int changes = source.take<std::uint8_t>() % 8; changes > 0; --changes) {
     text[source.take<std::uint32_t>() % text.size()] = static_cast<char>(source.take<std::uint8_t>());
   }
-  if (const auto state = read_state(text, "model")) use(kLibrary, *state);
+  if (const auto state = read_state(text, "model")) use(*state);
   return 0;
 }
 
