@@ -178,16 +178,16 @@ std::string restore(const GapWatchOptions& options, std::string_view model, gap:
 /// Hands the stream of a daemon to a watch until the time is over or the user ends it.
 void watch_daemon(const GapWatchOptions& options, const std::optional<config::Settings>& settings,
                   gap::Watch& watch, Clock::time_point end) {
-  WatchStream stream(options.host, std::to_string(options.port), gap::live_request());
+  ReadAhead stream(WatchStream(options.host, std::to_string(options.port), gap::live_request()));
   gap::LiveRecords records(settings);
-  bool was_connected = true;
   std::uint64_t dropped = 0;
   while (!base::Interruptible::interrupted() && Clock::now() < end) {
-    if (const auto line = stream.next(std::min(end, Clock::now() + std::chrono::seconds(1))))
-      records.take(*line, &watch);
-    if (stream.connected() != was_connected) {
-      was_connected = stream.connected();
-      print_line(report::watch_notice_json(was_connected ? "connected" : "disconnected", stream.problem()));
+    const auto item = stream.next(std::min(end, Clock::now() + std::chrono::milliseconds(200)));
+    if (!item) continue;
+    if (item->line) {
+      records.take(*item->line, &watch);
+    } else {
+      print_line(report::watch_notice_json(item->is_connected ? "connected" : "disconnected", item->problem));
     }
     if (records.dropped() != dropped) {
       dropped = records.dropped();
@@ -213,7 +213,9 @@ std::unique_ptr<gap::WindowSource> source_of(const GapWatchOptions& options, con
         diagnosis::LayoutWatchRequest{std::move(*layout),
                                       {options.nominals.begin(), options.nominals.end()},
                                       settings,
-                                      given_field(options)},
+                                      given_field(options),
+                                      0,
+                                      base::Interruptible::interrupted},
         show);
     settings = windows->settings();
     return windows;

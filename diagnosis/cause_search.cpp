@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "base/statistics.h"
 #include "diagnosis/limits.h"
@@ -131,8 +132,9 @@ bool are_one(const Cause& a, const Cause& b) {
   return kind(a) != 0 && kind(a) == kind(b);
 }
 
-SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set, double strength) const {
-  const Members members = members_of(set, library_, strength);
+SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set, const Anchor& anchor) const {
+  Members members = members_of(set, library_, kMemberStrengths.back());
+  if (anchor.share > 0) members.mean += anchor.share * (anchor.change(members.columns) - members.mean);
   Posterior all = unbounded_posterior(members, changes_.of(members.columns).about(members.mean));
   for (Eigen::Index i = 0; i < all.mean.size(); ++i) {
     // The most probable one on the bound, the others given that.
@@ -141,10 +143,6 @@ SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set, double streng
   }
   all.mean = all.mean.cwiseMax(members.low).cwiseMin(members.high);
   return all;
-}
-
-SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set) const {
-  return posterior(set, kMemberStrengths.back());
 }
 
 Eigen::VectorXd SetEvidence::Posterior::among(Eigen::Index count) const {
@@ -175,12 +173,12 @@ double SetEvidence::gain(const CauseSet& set) const {
          log_prior(set.size(), library_.causes.size(), std::isfinite(changes_.freedom));
 }
 
-std::optional<RecordingFit> settled(const RecordingModel& recording, const JointPrior& prior,
-                                    const Eigen::VectorXd& from, const ChangeOf& change_of,
-                                    const LogPriorOf& log_prior_of) {
+std::optional<RecordingFit> settled(const RecordingModel& recording, const JointPrior& prior, Departures from,
+                                    const ChangeOf& change_of, const LogPriorOf& log_prior_of) {
   std::optional<RecordingFit> best;
-  const Eigen::Index own = from.size() / prior.recordings;
-  Eigen::VectorXd at = from, best_at = at, change = Eigen::VectorXd::Zero(own), best_change = change;
+  Eigen::VectorXd &at = from.at, &change = from.change;
+  const Eigen::Index own = change.size();
+  Departures best_from = from;
   double most = 0;
   // A bound that cuts off a part of a change does so in all recordings.
   const auto confine = [&] {
@@ -196,8 +194,9 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
   const auto finished = [&] {
     if (best) {
       const Likelihood changes = prior.of_changes(best->linear);
-      const Eigen::VectorXd farther = change_of(changes) - best_change;
+      const Eigen::VectorXd farther = change_of(changes, {}) - best_from.change;
       best->is_settled = farther.dot(changes.information * farther) / 2 < kClass_nats;
+      best->change = best_from.change;
     }
     return std::move(best);
   };
@@ -211,21 +210,19 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
     const bool is_there = best && value < most + kSettledWithin_nats;
     best = std::move(fit);
     most = value;
-    best_at = at;
-    best_change = change;
+    best_from = from;
     if (is_there) break;
-    // The begin may be anywhere, and how much of it is the change is not known.
-    const bool is_begin = round == 0;
-    if (is_begin) most = -std::numeric_limits<double>::infinity();
     // A step that leads too far is damped before it is linearised, which takes longer.
     damping = std::max(1.0, damping / kDampingStep);
     for (bool is_better = false; !is_better; damping *= kDampingStep) {
       if (damping > kMostDamping) return finished();
       const double factor = best->damping() * damping;
       const Likelihood guide = best->linear.tempered(factor);
+      // All priors move along, so that the step is shorter the more it is damped.
+      const Anchor anchor{best_from.change, 1 - 1 / factor};
       JointPrior near = prior;
-      if (!is_begin) near.mean += (1 - 1 / factor) * (best_at - prior.in_each(best_change) - prior.mean);
-      change = change_of(near.of_changes(guide));
+      near.mean += anchor.share * (best_from.at - prior.in_each(best_from.change) - prior.mean);
+      change = change_of(near.of_changes(guide), anchor);
       const Eigen::VectorXd everywhere = prior.in_each(change);
       at = near.posterior_mean(guide.about(everywhere)) + everywhere;
       confine();
@@ -236,101 +233,188 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
   return finished();
 }
 
-CauseSearchResult search_causes(const RecordingModel& recording, const JointPrior& prior,
-                                const CauseLibrary& library, const Progress& progress) {
-  CauseSearchResult result;
-  Eigen::VectorXd no_change = Eigen::VectorXd::Zero(library.columns());
+namespace {
+
+/// Sets of causes of a recording: their scores, and fits of those that lead.
+class Search {
+ public:
+  Search(RecordingModel& recording, const JointPrior& prior, const CauseLibrary& library);
+
+  /// The leading single causes, then whatever leads or would be a rival without a fit of its own.
+  void fit_leaders(const Progress& progress);
+  /// A dead, a reversed and a weak actuator lie far apart in one direction, so each is fitted where one leads.
+  void fit_in_place();
+  /// Fits the leaders once more, each from where it was, with the gains of the best one's vehicle. The filter of
+  /// the nominal vehicle may have been led so far astray that its gains serve no other. False: nothing was done.
+  bool hold_at_best();
+  [[nodiscard]] CauseSearchResult result() &&;
+
+ private:
+  [[nodiscard]] bool is_fitted(const CauseSet& set) const { return scores_.is_fitted(set); }
+  [[nodiscard]] bool is_astray() const { return first_ && first_->mean_square > kAstrayPower; }
+  /// An actuator that is dead or reversed is as far as that from the nominal vehicle, and each of them has another
+  /// filter. Holds the gains of the one that follows best, where it follows far better. False: none does.
+  bool hold_at_switch();
+  /// Settles the departures without a cause, from some on.
+  void fit_none(Eigen::VectorXd from);
+  /// Where a search for the departures with these causes begins.
+  [[nodiscard]] Departures begin_of(const CauseSet& set) const;
+  [[nodiscard]] double likelihood_at(const Eigen::VectorXd& at) const;
+  void fit_again(const CauseSet& set);
+
+  RecordingModel& recording_;
+  const JointPrior& prior_;
+  const CauseLibrary& library_;
+  /// At the prior's mean, and settled without a cause; nullopt: with these gains it could not have moved so.
+  std::optional<RecordingFit> first_, nominal_;
+  double none_ = 0;  ///< evidence of no cause, or where it does not settle, of the prior's mean alone
+  Scores scores_;
+  std::map<CauseSet, RecordingFit> fits_;  ///< with the present gains
+  std::map<CauseSet, Departures> begins_;  ///< from where sets are fitted, where that is known
+};
+
+Search::Search(RecordingModel& recording, const JointPrior& prior, const CauseLibrary& library)
+    : recording_(recording), prior_(prior), library_(library), first_(recording.fit(prior.mean)) {
+  if (first_) none_ = first_->linear.about(prior.mean).value;
+  const bool is_switched = is_astray() && hold_at_switch();
   // Causes are looked for where the nominal vehicle is: its tolerances, fitted to a gap, lead astray.
-  auto first = recording.fit(prior.mean);
-  auto nominal = settled(recording, prior, prior.mean, [&](const Likelihood&) { return no_change; });
-  if (!nominal) throw cannot_follow(recording.recording());
-  if (!first) first = nominal;
-  result.none = nominal->linear;
-  const double none = prior.of_changes(nominal->linear).evidence();
-  const SetEvidence about_first(prior.of_changes(first->guide()), library);
-  Scores scores;
-  std::map<CauseSet, RecordingFit> fits;
-  scores.set({}, none, true);
+  fit_none(prior.mean);
+  if (!nominal_ && !is_switched) throw cannot_follow(recording.recording());
+  if (!first_) first_ = nominal_;
+  const SetEvidence about_first(prior.of_changes(first_->guide()), library);
   for (std::size_t i = 0; i < library.causes.size(); ++i) {
-    scores.set({i}, none + about_first.gain({i}));
+    scores_.set({i}, none_ + about_first.gain({i}));
     for (std::size_t j = i + 1; j < library.causes.size(); ++j) {
-      if (is_new(j, {i}, library)) scores.set({i, j}, none + about_first.gain({i, j}));
+      if (is_new(j, {i}, library)) scores_.set({i, j}, none_ + about_first.gain({i, j}));
     }
   }
-  constexpr double kImpossible_nats = 1e6;
-  const auto fit_again = [&](const CauseSet& set) {
-    // From the fit of the set without one of its members, where there is one.
-    const RecordingFit* here = &*first;
-    for (std::size_t left = 0; left < set.size(); ++left) {
-      CauseSet smaller = set;
-      smaller.erase(smaller.begin() + static_cast<std::ptrdiff_t>(left));
-      if (const auto found = fits.find(smaller); found != fits.end()) here = &found->second;
-    }
-    const auto estimated = [&](const Likelihood& changes) {
-      return SetEvidence(changes, library).posterior(set).among(library.columns());
-    };
-    const Likelihood guide = here->guide();
-    const Eigen::VectorXd begin = prior.in_each(estimated(prior.of_changes(guide)));
-    const auto settled_from = [&](const Eigen::VectorXd& from) {
-      return settled(recording, prior, from, estimated,
-                     [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library); });
-    };
-    // Far from the nominal vehicle its slopes make tolerances of the gap, at times such that no vehicle survives.
-    const Eigen::VectorXd with_tolerances = prior.posterior_mean(guide.about(begin)) + begin;
-    const Eigen::VectorXd alone = prior.mean + begin;
-    const auto likelihood_at = [&](const Eigen::VectorXd& at) {
-      return recording.log_likelihood(recording.within(at)).value_or(-std::numeric_limits<double>::infinity());
-    };
-    auto there = settled_from(likelihood_at(with_tolerances) < likelihood_at(alone) ? alone : with_tolerances);
-    if (!there) {
-      // With these effects the vehicle could not have moved as it did.
-      scores.set(set, none - kImpossible_nats, true);
-      return;
-    }
-    const SetEvidence evidence(prior.of_changes(there->linear), library);
-    const double score = evidence(set);
-    scores.set(set, score, true);
-    const SetEvidence guided(prior.of_changes(there->guide()), library);
-    const double guided_gain = guided.gain(set);
-    for (std::size_t i = 0; i < library.causes.size() && set.size() < kMostEffects; ++i) {
-      if (is_new(i, set, library)) scores.set(with(set, i), score + guided.gain(with(set, i)) - guided_gain);
-    }
-    fits.insert_or_assign(set, std::move(*there));
-  };
-  // The leading single causes, then whatever leads or would be a rival without a fit of its own.
+  if (is_switched) fit_again(begins_.begin()->first);
+}
+
+bool Search::hold_at_switch() {
+  constexpr double kFarBetter = 10;
+  double least = first_->mean_square / kFarBetter;
+  for (std::size_t i = 0; i < library_.causes.size(); ++i) {
+    const CauseParameter& parameter = library_.causes[i].parameters.front();
+    if (!parameter.is_switch()) continue;
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(library_.columns());
+    change[parameter.column] = parameter.typical * parameter.per_unit;
+    const Eigen::VectorXd at = prior_.mean + prior_.in_each(change);
+    const auto power = recording_.power(at);
+    if (!power || power->mean_square >= least) continue;
+    least = power->mean_square;
+    begins_ = {{CauseSet{i}, {at, change}}};
+  }
+  return !begins_.empty() && recording_.hold(begins_.begin()->second.at);
+}
+
+void Search::fit_none(Eigen::VectorXd from) {
+  const Eigen::VectorXd no_change = Eigen::VectorXd::Zero(library_.columns());
+  nominal_ = settled(recording_, prior_, {std::move(from), no_change}, [&](const auto&...) { return no_change; });
+  if (nominal_) none_ = prior_.of_changes(nominal_->linear).evidence();
+  scores_.set({}, none_, true);
+}
+
+double Search::likelihood_at(const Eigen::VectorXd& at) const {
+  return recording_.log_likelihood(recording_.within(at)).value_or(-std::numeric_limits<double>::infinity());
+}
+
+Departures Search::begin_of(const CauseSet& set) const {
+  if (const auto begin = begins_.find(set); begin != begins_.end()) return begin->second;
+  // From the fit of the set without one of its members, where there is one.
+  const RecordingFit* here = &*first_;
+  for (std::size_t left = 0; left < set.size(); ++left) {
+    CauseSet smaller = set;
+    smaller.erase(smaller.begin() + static_cast<std::ptrdiff_t>(left));
+    if (const auto found = fits_.find(smaller); found != fits_.end()) here = &found->second;
+  }
+  const Likelihood guide = here->guide();
+  Eigen::VectorXd change =
+      SetEvidence(prior_.of_changes(guide), library_).posterior(set).among(library_.columns());
+  const Eigen::VectorXd begin = prior_.in_each(change);
+  // Far from the nominal vehicle its slopes make tolerances of the gap, at times such that no vehicle survives.
+  Eigen::VectorXd with_tolerances = prior_.posterior_mean(guide.about(begin)) + begin;
+  Eigen::VectorXd alone = prior_.mean + begin;
+  const bool is_alone = likelihood_at(with_tolerances) < likelihood_at(alone);
+  return {std::move(is_alone ? alone : with_tolerances), std::move(change)};
+}
+
+void Search::fit_again(const CauseSet& set) {
+  auto there = settled(
+      recording_, prior_, begin_of(set),
+      [&](const Likelihood& changes, const Anchor& anchor) {
+        return SetEvidence(changes, library_).posterior(set, anchor).among(library_.columns());
+      },
+      [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library_); });
+  if (!there) {
+    // With these effects the vehicle could not have moved as it did.
+    scores_.set(set, none_ - kImpossible_nats, true);
+    return;
+  }
+  const double score = SetEvidence(prior_.of_changes(there->linear), library_)(set);
+  scores_.set(set, score, true);
+  const SetEvidence guided(prior_.of_changes(there->guide()), library_);
+  const double guided_gain = guided.gain(set);
+  for (std::size_t i = 0; i < library_.causes.size() && set.size() < kMostEffects; ++i) {
+    if (is_new(i, set, library_)) scores_.set(with(set, i), score + guided.gain(with(set, i)) - guided_gain);
+  }
+  fits_.insert_or_assign(set, std::move(*there));
+}
+
+void Search::fit_leaders(const Progress& progress) {
   for (std::size_t done = 0; done < kRefitted + kReconsidered; ++done) {
     progress(static_cast<double>(done) / (kRefitted + kReconsidered));
-    const auto ranked = scores.ranked();
+    const auto ranked = scores_.ranked();
     const bool is_single = done < kRefitted;
     const auto next = std::find_if(ranked.begin(), ranked.end(), [&](const ScoredSet& one) {
-      return !scores.is_fitted(one.causes) && (!is_single || one.causes.size() == 1);
+      return !is_fitted(one.causes) && (!is_single || one.causes.size() == 1);
     });
-    if (next == ranked.end()) break;
-    if (done > 0 && next->log_odds < (is_single ? none : ranked.front().log_odds - kClass_nats)) {
-      if (is_single)
-        done = kRefitted - 1;
-      else
-        break;
+    const double least = is_single ? none_ : ranked.front().log_odds - kClass_nats;
+    if (next == ranked.end() || (done > 0 && next->log_odds < least)) {
+      if (!is_single) break;
+      done = kRefitted - 1;
       continue;
     }
     fit_again(CauseSet(next->causes));
   }
-  // A dead, a reversed and a weak actuator lie far apart in one direction, so each is fitted where one leads.
-  const CauseSet leader = scores.ranked().front().causes;
+}
+
+void Search::fit_in_place() {
+  const CauseSet leader = scores_.ranked().front().causes;
   for (const std::size_t member : leader) {
-    for (std::size_t other = 0; other < library.causes.size(); ++other) {
+    for (std::size_t other = 0; other < library_.causes.size(); ++other) {
       CauseSet in_place = leader;
       std::erase(in_place, member);
       in_place = with(std::move(in_place), other);
-      if (are_one(library.causes[member], library.causes[other]) && !scores.is_fitted(in_place))
-        fit_again(in_place);
+      if (are_one(library_.causes[member], library_.causes[other]) && !is_fitted(in_place)) fit_again(in_place);
     }
   }
-  result.sets = scores.ranked();
+}
+
+bool Search::hold_at_best() {
+  const auto ranked = scores_.ranked();
+  const auto best = fits_.find(ranked.front().causes);
+  if (!is_astray() || best == fits_.end() || !recording_.hold(best->second.at)) return false;
+  begins_.clear();
+  for (const auto& [set, fit] : std::exchange(fits_, {})) begins_.emplace(set, Departures{fit.at, fit.change});
+  scores_ = {};
+  fit_none(nominal_ ? Eigen::VectorXd(nominal_->at) : prior_.mean);
+  for (const ScoredSet& one : ranked) {
+    if (begins_.contains(one.causes)) fit_again(one.causes);
+  }
+  return true;
+}
+
+CauseSearchResult Search::result() && {
+  CauseSearchResult result;
+  const Eigen::Index count = prior_.mean.size();
+  result.none = {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
+  if (nominal_) result.none = nominal_->linear;
+  result.sets = scores_.ranked();
   // What only leads far from where it was linearised does not lead.
   const auto erased = std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
-    const auto fit = fits.find(one.causes);
-    leads = leads && (fit == fits.end() ? !scores.is_fitted(one.causes) : !fit->second.is_settled);
+    const auto fit = fits_.find(one.causes);
+    leads = leads && (fit == fits_.end() ? !is_fitted(one.causes) : !fit->second.is_settled);
     return leads;
   });
   const double rest = std::accumulate(result.sets.begin(), result.sets.end(), 0.0,
@@ -338,9 +422,23 @@ CauseSearchResult search_causes(const RecordingModel& recording, const JointPrio
   for (ScoredSet& one : result.sets)
     if (erased > 0 && rest > 0) one.probability /= rest;
   const CauseSet& best = result.sets.front().causes;
-  result.best = best.empty() ? std::move(*nominal) : std::move(fits.at(best));
-  result.changes = prior.of_changes(result.best.linear);
+  result.best = best.empty() ? std::move(*nominal_) : std::move(fits_.at(best));
+  result.changes = prior_.of_changes(result.best.linear);
   return result;
+}
+
+}  // namespace
+
+CauseSearchResult search_causes(RecordingModel& recording, const JointPrior& prior, const CauseLibrary& library,
+                                const Progress& progress) {
+  Search search(recording, prior, library);
+  search.fit_leaders(progress);
+  search.fit_in_place();
+  if (search.hold_at_best()) {
+    search.fit_leaders(progress);
+    search.fit_in_place();
+  }
+  return std::move(search).result();
 }
 
 }  // namespace navcal::diagnosis

@@ -30,6 +30,12 @@ struct CauseSearchResult {
   Likelihood changes;           ///< of the nominal vehicle, in `best`
 };
 
+/// A change near which another one is looked for: the prior's mean is moved there by a share of the way.
+struct Anchor {
+  Eigen::VectorXd change = {};
+  double share = 0;
+};
+
 /// Log evidence of sets of causes by the likelihood of changes of the nominal vehicle, nats: a mixture of the
 /// strengths kMemberStrengths (docs/gap.md, "Vehicles with a layout").
 class SetEvidence {
@@ -52,10 +58,9 @@ class SetEvidence {
     /// All columns, those of no member zero.
     [[nodiscard]] Eigen::VectorXd among(Eigen::Index count) const;
   };
-  [[nodiscard]] Posterior posterior(const CauseSet& set) const;
+  [[nodiscard]] Posterior posterior(const CauseSet& set, const Anchor& anchor = {}) const;
 
  private:
-  [[nodiscard]] Posterior posterior(const CauseSet& set, double strength) const;
   [[nodiscard]] double gain(const CauseSet& set, double strength) const;
 
   Likelihood changes_;
@@ -63,19 +68,24 @@ class SetEvidence {
 };
 
 /// Change of the nominal vehicle by the likelihood of changes.
-using ChangeOf = std::function<Eigen::VectorXd(const Likelihood&)>;
+using ChangeOf = std::function<Eigen::VectorXd(const Likelihood&, const Anchor&)>;
 /// Log probability of a change before the recording, but for a constant.
 using LogPriorOf = std::function<double(const Eigen::VectorXd&)>;
+/// Departures of each recording, and the part of them that is the change of the nominal vehicle.
+struct Departures {
+  Eigen::VectorXd at, change;
+};
 /// A recording linearised again and again where it says that its vehicle is, until its evidence settles. nullopt:
 /// a vehicle could not have moved so. Only recordings that have settled alike compare.
 [[nodiscard]] std::optional<RecordingFit> settled(
-    const RecordingModel& recording, const JointPrior& prior, const Eigen::VectorXd& from,
-    const ChangeOf& change_of, const LogPriorOf& log_prior_of = [](const auto&) { return 0.0; });
+    const RecordingModel& recording, const JointPrior& prior, Departures from, const ChangeOf& change_of,
+    const LogPriorOf& log_prior_of = [](const auto&) { return 0.0; });
 
 /// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation of the
 /// nominal vehicle; the leaders are fitted again at their own estimate, because large effects are not linear, and
-/// score their larger neighbours. Throws std::invalid_argument where the nominal vehicle cannot follow.
-[[nodiscard]] CauseSearchResult search_causes(const RecordingModel& recording, const JointPrior& prior,
+/// score their larger neighbours. Behind a gap that leads the nominal vehicle's filter astray, the recording holds
+/// the gains of the best set. Throws std::invalid_argument where the nominal vehicle cannot follow.
+[[nodiscard]] CauseSearchResult search_causes(RecordingModel& recording, const JointPrior& prior,
                                               const CauseLibrary& library, const Progress& progress);
 
 }  // namespace navcal::diagnosis

@@ -41,7 +41,7 @@ struct Judged {
 };
 
 /// Predicts each of several recordings by the others.
-std::vector<ExplainedRecording> predicted_by_others(const Judged& of, std::vector<const RecordingModel*> parts) {
+std::vector<ExplainedRecording> predicted_by_others(const Judged& of, std::vector<RecordingModel*> parts) {
   std::vector<ExplainedRecording> explained;
   const JointPrior prior = of.bank.prior_of(parts.size() - 1);
   Eigen::VectorXd at = of.found.best.at;
@@ -61,7 +61,7 @@ std::vector<ExplainedRecording> predicted_by_others(const Judged& of, std::vecto
 
 /// Writes the estimates of each of several recordings, whether they differ, and, if they do, what is found in each
 /// one alone.
-void write_apart(const Judged& of, std::span<const RecordingModel* const> parts, Diagnosis& answer) {
+void write_apart(const Judged& of, std::span<RecordingModel* const> parts, Diagnosis& answer) {
   const CauseSet& best = of.found.sets.front().causes;
   std::vector<SetEvidence::Posterior> estimates;
   const Eigen::VectorXd& at = of.found.best.at;
@@ -88,6 +88,7 @@ void write_apart(const Judged& of, std::span<const RecordingModel* const> parts,
   const bool differ = std::ranges::any_of(answer.differences, &gap::EffectDifference::differs);
   if (of.bank.powers.empty() || (!differ && answer.verdict != gap::Verdict::unknown)) return;
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i]->hold(of.bank.prior.mean);
     const auto alone = search_causes(*parts[i], of.bank.prior, of.library,
                                      [&](double done) { of.progress(answer.recordings[i].recording, done); });
     answer.recordings[i].alone = gap::RecordingFinding::Alone{{}, alone.sets.front().probability};
@@ -171,19 +172,21 @@ void find_causes(LayoutStudy& study, const gap::Progress& progress) {
                                   "differ: give more (--nominal)"
                                 : fmt::format("the floor is that of {} nominal recordings", bank.powers.size()));
   std::vector<std::unique_ptr<RecordingModel>> compared = those_judged(recordings, *study.source, bank, answer);
-  std::vector<const RecordingModel*> parts;
+  std::vector<RecordingModel*> parts;
   for (const auto& one : compared) parts.push_back(one.get());
   const bool are_several = parts.size() > 1;
   if (are_several) {
     compared.push_back(study.source->joined(parts));
     bank.expect(parts.size(), library);
   }
-  const RecordingModel& mine = *compared.back();
+  RecordingModel& mine = *compared.back();
   const JointPrior prior = bank.prior_of(parts.size());
   const CauseSearchResult& found =
       study.found.emplace(search_causes(mine, prior, library, [&](double done) { progress("search", done); }));
   ExplainedRecording itself;
-  itself.before = mine.power(mine.own_departures(prior, found.none)).value_or(RecordingPower{});
+  auto before = mine.power(mine.own_departures(prior, found.none));
+  if (!before) before = mine.power(prior.mean);
+  itself.before = before.value_or(RecordingPower{});
   const auto with = [&](const CauseSet& set) {
     ExplainedRecording changed = itself;
     const Eigen::VectorXd by =

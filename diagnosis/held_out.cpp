@@ -8,6 +8,8 @@
 #include <optional>
 #include <random>
 
+#include "diagnosis/limits.h"
+
 namespace navcal::diagnosis {
 
 namespace {
@@ -21,24 +23,29 @@ double predicted(const Likelihood& changes, const SetEvidence& estimated, const 
 
 }  // namespace
 
-ExplainedRecording held_out(const RecordingModel& recording, const JointPrior& prior, const CauseLibrary& library,
+ExplainedRecording held_out(RecordingModel& recording, const JointPrior& prior, const CauseLibrary& library,
                             const CauseSearchResult& found) {
   const CauseSet& best = found.sets.front().causes;
   const SetEvidence estimated(found.changes, library);
   const Eigen::VectorXd change = estimated.posterior(best).among(library.columns());
   const auto changed_by = [&](const Eigen::VectorXd& by) {
-    return settled(recording, prior, prior.mean + by, [&](const Likelihood&) { return by; });
+    return settled(recording, prior, {prior.mean + by, by}, [&](const auto&...) { return by; });
   };
-  const auto none = changed_by(Eigen::VectorXd::Zero(library.columns())), with = changed_by(change);
+  auto none = changed_by(Eigen::VectorXd::Zero(library.columns()));
   ExplainedRecording explained{-std::numeric_limits<double>::infinity(), {}, {}, {}};
   if (!none) throw cannot_follow(recording.recording());
   explained.before = explained.after =
       recording.power(recording.own_departures(prior, none->linear)).value_or(RecordingPower{});
+  // As the search does behind a gap that leads astray.
+  const auto first = recording.fit(prior.mean);
+  if (first && first->mean_square > kAstrayPower && recording.hold(prior.mean + change))
+    none = changed_by(Eigen::VectorXd::Zero(library.columns()));
+  const auto with = changed_by(change);
   // A vehicle with these effects could not have moved as this one did.
   if (!with) return explained;
   const Likelihood changes = prior.of_changes(with->linear);
   const double of_all = predicted(changes, estimated, best);
-  explained.gain_nats = of_all - prior.of_changes(none->linear).value;
+  explained.gain_nats = none ? of_all - prior.of_changes(none->linear).value : kImpossible_nats;
   for (std::size_t left = 0; left < best.size(); ++left) {
     CauseSet others = best;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(left));

@@ -18,7 +18,7 @@ struct ExplainedRecording {
 };
 
 /// Predicts a held-out recording with the estimate of the most probable set.
-[[nodiscard]] ExplainedRecording held_out(const RecordingModel& recording, const JointPrior& prior,
+[[nodiscard]] ExplainedRecording held_out(RecordingModel& recording, const JointPrior& prior,
                                           const CauseLibrary& library, const CauseSearchResult& found);
 
 /// How much of the gap goes away in some recordings together; the interval by drawing blocks anew. `floor`: noise

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -105,8 +106,11 @@ std::optional<std::string> objection(const LayoutEvidence& evidence, const Membe
                                      const gap::EffectFinding& finding, gap::UnknownKind& kind) {
   kind = gap::UnknownKind::cannot_say;
   const Cause& cause = evidence.library.causes[member.cause];
-  const double needed_nats = std::max(evidence.bank.leads.named_nats, kNamedShare * lead_of_best(evidence.found)) +
-                             evidence.bank.chance_nats[member.cause];
+  const auto& of_channel = evidence.after.readings_of_channel;
+  const double readings = std::accumulate(of_channel.begin(), of_channel.end(), 0.0);
+  const double needed_nats =
+      std::max(evidence.bank.leads.named_nats, kNamedShare * std::min(lead_of_best(evidence.found), readings)) +
+      evidence.bank.chance_nats[member.cause];
   if (member.lead_nats < needed_nats) {
     return fmt::format("the most probable cause, {}, leads by {:.0f} nats only; a name takes {:.0f}",
                        cause.words(), member.lead_nats, needed_nats);

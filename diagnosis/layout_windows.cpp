@@ -210,9 +210,11 @@ void LayoutWindows::look(std::span<const instruments::Sample> samples, std::span
   study_.recordings.recording = motion_of(samples, orders, begin_ns);
   study_.diagnosis = {};
   try {
-    find_causes(study_, [](std::string_view, double) {});
+    find_causes(study_, [this](std::string_view, double) {
+      if (request_.is_ended()) throw std::invalid_argument("ended");
+    });
   } catch (const std::invalid_argument&) {
-    return;  // more windows may be judged
+    return;  // more windows may be judged, or none
   }
   const gap::Diagnosis& found = study_.diagnosis;
   using enum gap::WatchReport::Verdict;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct LayoutWatchRequest {
   std::optional<config::Settings> settings;     ///< of the samples; else those of the first nominal recording
   std::optional<std::array<double, 3>> field_uT;
   unsigned threads = 0;  ///< 0: as many as there are cores
+  /// Asked during a look, which then ends without an answer.
+  std::function<bool()> is_ended = [] { return false; };
 };
 
 /// Windows of a vehicle with a layout, each followed by the filter of its diagnosis. They are compared with those

@@ -39,6 +39,11 @@ inline constexpr std::size_t kRefitted = 4, kReconsidered = 4;
 /// Mean square of the innovations up to which a recording is thought to be linear over the way to its explanation:
 /// nominal ones have up to 1.3.
 inline constexpr double kLinearPower = 2;
+/// Mean square above which the nominal vehicle's filter is led astray: its errors are ten times what it expects,
+/// so it is linear about states that never were.
+inline constexpr double kAstrayPower = 100;
+/// A set with which the vehicle could not have moved as it did is so far behind.
+inline constexpr double kImpossible_nats = 1e6;
 /// A recording has settled where its evidence changes by less, and is given up after so many passes.
 inline constexpr double kSettledWithin_nats = 1;
 inline constexpr int kMostSettlings = 8;
@@ -60,7 +65,7 @@ inline constexpr double kBlock_s = 5;
 /// behind, beyond what nominal recordings have for it by chance.
 inline constexpr double kNamed_nats = 15;
 /// And by this share of the lead of the best set over no cause: where one cause has thousands of nats, what the
-/// layout gets wrong about it has tens.
+/// layout gets wrong about it has tens. Only one nat of each reading counts: more is no longer told from noise.
 inline constexpr double kNamedShare = 0.02;
 /// Causes are not told apart where one in place of the other costs less.
 inline constexpr double kClass_nats = 5;

@@ -126,9 +126,10 @@ std::optional<identify::FilterPass> FittedRecording::follow(const Eigen::VectorX
   return filter_.follow(values_at(at));
 }
 
-void FittedRecording::hold_gains(const Eigen::VectorXd& at) {
-  held_ = follow(at);
-  if (!held_) throw cannot_follow(filter_.recording());
+bool FittedRecording::hold(const Eigen::VectorXd& at) {
+  auto pass = follow(at);
+  if (pass) held_ = std::move(pass);
+  return pass.has_value();
 }
 
 std::optional<identify::FilterLinearised> FittedRecording::linearised(
@@ -237,6 +238,12 @@ std::optional<RecordingPower> JoinedRecordings::power(const Eigen::VectorXd& at)
   return all;
 }
 
+bool JoinedRecordings::hold(const Eigen::VectorXd& at) {
+  bool any = false;
+  for (std::size_t i = 0; i < parts_.size(); ++i) any = parts_[i]->hold(of_part(at, i)) || any;
+  return any;
+}
+
 std::unique_ptr<RecordingModel> FilteredSource::nominal(const identify::RecordedMotion& recording) {
   auto made = fitted(recording);
   nominals_.push_back(made.get());
@@ -262,7 +269,7 @@ void FilteredSource::refine(std::size_t round, std::span<const Eigen::VectorXd> 
 std::unique_ptr<RecordingModel> FilteredSource::compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const {
   auto made = fitted(recording);
-  made->hold_gains(nominal);
+  if (!made->hold(nominal)) throw cannot_follow(recording);
   return made;
 }
 

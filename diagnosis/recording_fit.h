@@ -72,6 +72,8 @@ struct RecordingFit {
   Likelihood linear;
   Eigen::VectorXd at;      ///< where it was linearised
   double mean_square = 1;  ///< of the white innovations there
+  /// Of the nominal vehicle, in all recordings, as settled() found it.
+  Eigen::VectorXd change = {};
   /// False: it was given up while its likelihood still put the causes far from `at`.
   bool is_settled = true;
 
@@ -130,12 +132,16 @@ class RecordingModel : public NotCopied {
   [[nodiscard]] virtual const identify::RecordedMotion& recording() const = 0;
   /// What is odd about its commands, in words.
   [[nodiscard]] virtual std::vector<std::string> oddities() const = 0;
+  /// From here on, fits have the gains and variances of the filter of a vehicle with these departures. Only then
+  /// do they compare: a filter that expects other errors is more or less probable for that alone, whatever caused
+  /// the readings. False: nothing has changed, because that vehicle cannot follow or there is no such filter.
+  virtual bool hold(const Eigen::VectorXd& /*at*/) { return false; }
 };
 
 /// Recordings with the same causes, each with departures of its own besides. They must outlive it.
 class JoinedRecordings final : public RecordingModel {
  public:
-  explicit JoinedRecordings(std::span<const RecordingModel* const> parts) : parts_(parts.begin(), parts.end()) {}
+  explicit JoinedRecordings(std::span<RecordingModel* const> parts) : parts_(parts.begin(), parts.end()) {}
 
   [[nodiscard]] Eigen::VectorXd within(const Eigen::VectorXd& at) const override;
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override;
@@ -147,11 +153,12 @@ class JoinedRecordings final : public RecordingModel {
   }
   [[nodiscard]] const identify::RecordedMotion& recording() const override { return parts_.front()->recording(); }
   [[nodiscard]] std::vector<std::string> oddities() const override { return {}; }
+  bool hold(const Eigen::VectorXd& at) override;
 
  private:
   [[nodiscard]] Eigen::VectorXd of_part(const Eigen::VectorXd& at, std::size_t part) const;
 
-  std::vector<const RecordingModel*> parts_;
+  std::vector<RecordingModel*> parts_;
 };
 
 /// Makes the models of a diagnosis.
@@ -168,7 +175,7 @@ class ModelSource : public NotCopied {
   /// Several of those as one model: with departures of each recording (JoinedRecordings), or where the likelihoods
   /// have the scatter in them, of all. They must outlive it.
   [[nodiscard]] virtual std::unique_ptr<RecordingModel> joined(
-      std::span<const RecordingModel* const> compared) const = 0;
+      std::span<RecordingModel* const> compared) const = 0;
   /// Whether there is a scatter, at any time; the rest once the nominal models are refined.
   [[nodiscard]] virtual Leads leads() const = 0;
 };
@@ -186,10 +193,7 @@ class FittedRecording final : public RecordingModel {
                   const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
                   unsigned threads);
 
-  /// From here on fits have the gains and variances of the filter with these departures. Only then do they
-  /// compare: a filter that expects other errors is more or less probable for that alone, whatever caused the
-  /// readings. Throws std::invalid_argument where the layout cannot follow the recording so.
-  void hold_gains(const Eigen::VectorXd& at);
+  bool hold(const Eigen::VectorXd& at) override;
   [[nodiscard]] Eigen::VectorXd within(const Eigen::VectorXd& at) const override {
     return values_at(at) - filter_.start();
   }
@@ -237,8 +241,7 @@ class FilteredSource final : public ModelSource {
   }
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const override;
-  [[nodiscard]] std::unique_ptr<RecordingModel> joined(
-      std::span<const RecordingModel* const> compared) const override {
+  [[nodiscard]] std::unique_ptr<RecordingModel> joined(std::span<RecordingModel* const> compared) const override {
     return std::make_unique<JoinedRecordings>(compared);
   }
   [[nodiscard]] Leads leads() const override;

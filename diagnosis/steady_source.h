@@ -26,8 +26,7 @@ class SteadySource final : public ModelSource {
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const override;
-  [[nodiscard]] std::unique_ptr<RecordingModel> joined(
-      std::span<const RecordingModel* const> compared) const override {
+  [[nodiscard]] std::unique_ptr<RecordingModel> joined(std::span<RecordingModel* const> compared) const override {
     return std::make_unique<SteadyRecording>(compared, balances_);
   }
   [[nodiscard]] Leads leads() const override;

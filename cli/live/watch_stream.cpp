@@ -15,6 +15,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kRetry = std::chrono::milliseconds(500);
+/// The reader of a stream looks so often whether it should end.
+constexpr auto kReadStep = std::chrono::milliseconds(200);
+/// Lines that wait for their taker, a quarter of an hour of all reports; then the daemon waits.
+constexpr std::size_t kMostWaiting_bytes = 256UL << 20;
 
 }  // namespace
 
@@ -58,6 +62,37 @@ std::optional<std::string> WatchStream::next(Clock::time_point until) {
       disconnect(error.what());
     }
   }
+}
+
+ReadAhead::ReadAhead(WatchStream stream)
+    : stream_(std::move(stream)), reader_([this](const std::stop_token& stop) { read(stop); }) {}
+
+void ReadAhead::read(const std::stop_token& stop) {
+  bool was_connected = true;
+  while (!stop.stop_requested()) {
+    auto line = stream_.next(Clock::now() + kReadStep);
+    std::unique_lock lock(mutex_);
+    if (line) {
+      waiting_bytes_ += line->size();
+      items_.push_back({std::move(line), true, {}});
+    }
+    if (stream_.connected() != was_connected) {
+      was_connected = stream_.connected();
+      items_.push_back({std::nullopt, was_connected, stream_.problem()});
+    }
+    changed_.notify_all();
+    changed_.wait(lock, stop, [this] { return waiting_bytes_ < kMostWaiting_bytes; });
+  }
+}
+
+std::optional<ReadAhead::Item> ReadAhead::next(Clock::time_point until) {
+  std::unique_lock lock(mutex_);
+  if (!changed_.wait_until(lock, until, [this] { return !items_.empty(); })) return std::nullopt;
+  Item item = std::move(items_.front());
+  items_.pop_front();
+  if (item.line) waiting_bytes_ -= item.line->size();
+  changed_.notify_all();
+  return item;
 }
 
 }  // namespace navcal::cli

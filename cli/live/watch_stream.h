@@ -2,9 +2,13 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "cli/live/line_socket.h"
 
@@ -44,6 +48,31 @@ class WatchStream {
   bool was_connected_ = false;
   std::string problem_;
   std::chrono::steady_clock::time_point next_attempt_{};
+};
+
+/// A stream that a thread reads ahead, so that a daemon need not leave anything out while its reader computes.
+class ReadAhead {
+ public:
+  explicit ReadAhead(WatchStream stream);
+
+  /// A line, or that the connection is another than before.
+  struct Item {
+    std::optional<std::string> line;
+    bool is_connected = true;
+    std::string problem;  ///< why it is not
+  };
+  /// nullopt when `until` has come.
+  std::optional<Item> next(std::chrono::steady_clock::time_point until);
+
+ private:
+  void read(const std::stop_token& stop);
+
+  WatchStream stream_;
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable_any changed_;
+  std::deque<Item> items_;
+  std::size_t waiting_bytes_ = 0;
+  std::jthread reader_;
 };
 
 }  // namespace navcal::cli

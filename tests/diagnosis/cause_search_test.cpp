@@ -243,10 +243,77 @@ TEST(SearchCauses, ASetThatOnlyPromisesWhereItWasNotLinearisedDoesNotLead) {
   library.parameters[0].high = 10;
   const Eigen::Index columns = library.columns();
   const JointPrior prior{Eigen::VectorXd::Zero(columns), 1e-3 * Eigen::MatrixXd::Identity(columns, columns)};
-  const auto found = search_causes(Mirage(), prior, library, [](double) {});
+  Mirage mirage;
+  const auto found = search_causes(mirage, prior, library, [](double) {});
   ASSERT_EQ(found.sets.size(), 1U);
   EXPECT_TRUE(found.sets[0].causes.empty());
   EXPECT_DOUBLE_EQ(found.sets[0].probability, 1);
+}
+
+/// A vehicle that a switch explains, as only a filter says whose gains are of the switched vehicle. The others
+/// leave any departures as improbable.
+class Switched final : public RecordingModel {
+ public:
+  [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override {
+    const double apart = at[1] - 1;
+    Likelihood here{Eigen::MatrixXd::Zero(at.size(), at.size()), Eigen::VectorXd::Zero(at.size()), -1e5, 0};
+    if (is_held_) {
+      here.information(1, 1) = 1e4;
+      here.score[1] = -1e4 * apart;
+      here.value = -5e3 * apart * apart;
+    }
+    return RecordingFit{here.about(-at), at, mean_square(apart)};
+  }
+  [[nodiscard]] std::optional<RecordingPower> power(const Eigen::VectorXd& at) const override {
+    RecordingPower power;
+    power.mean_square = mean_square(at[1] - 1);
+    return power;
+  }
+  [[nodiscard]] Eigen::VectorXd own_departures(const JointPrior& prior, const Likelihood&) const override {
+    return prior.mean;
+  }
+  [[nodiscard]] const identify::RecordedMotion& recording() const override { return recording_; }
+  [[nodiscard]] std::vector<std::string> oddities() const override { return {}; }
+  bool hold(const Eigen::VectorXd& at) override {
+    is_held_ = std::abs(at[1] - 1) < 0.1;
+    return true;
+  }
+
+ private:
+  [[nodiscard]] static double mean_square(double apart) { return 1 + 1e4 * apart * apart; }
+
+  identify::RecordedMotion recording_;
+  bool is_held_ = false;
+};
+
+TEST(SearchCauses, AnActuatorThatIsDeadHasAFilterOfItsOwn) {
+  CauseLibrary library;
+  library.parameters.resize(2);
+  for (Eigen::Index column = 0; column < 2; ++column) {
+    const bool is_switch = column == 1;
+    const CauseParameter parameter{
+        .name = "k", .low = is_switch ? 0.0 : -10.0, .high = is_switch ? 1.0 : 10.0, .column = column};
+    ASSERT_EQ(parameter.is_switch(), is_switch);
+    library.causes.push_back(
+        {.name = is_switch ? "dead" : "weak", .of = {}, .manoeuvre = {}, .parameters = {parameter}});
+    library.parameters[static_cast<std::size_t>(column)].low = parameter.low;
+    library.parameters[static_cast<std::size_t>(column)].high = parameter.high;
+  }
+  const Eigen::Index columns = library.columns();
+  const JointPrior prior{Eigen::VectorXd::Zero(columns), 1e-3 * Eigen::MatrixXd::Identity(columns, columns)};
+  Switched switched;
+  const auto found = search_causes(switched, prior, library, [](double) {});
+  EXPECT_EQ(found.sets[0].causes, CauseSet{1});
+  EXPECT_NEAR(found.best.at[1], 1, 1e-6);
+}
+
+TEST(SetEvidence, AnAnchorHoldsAnEstimateBackByItsShare) {
+  const CauseLibrary library = small_library();
+  const Likelihood vague{1e-9 * Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Zero(3), 0};
+  const SetEvidence evidence(vague, library);
+  const Eigen::Vector3d change(0.5, 0, 0);
+  for (const double share : {0.0, 0.25, 1.0})
+    EXPECT_NEAR(evidence.posterior({0}, {change, share}).mean[0], share * 0.5, 1e-6);
 }
 
 }  // namespace

@@ -92,6 +92,7 @@ TEST(LayoutVerdict, WhatCouldStandInItsPlaceIsFoundInAnyGoodSet) {
 
 TEST(LayoutVerdict, BesideACauseOfThousandsOfNatsTensNameNothing) {
   Searched searched = with_a_third();
+  searched.after.readings_of_channel[0] = 5000;
   searched.found.sets = {{{0, 2}, 40, 0.9}, {{0}, 20, 0.06}, {{}, 0, 0}};
   EXPECT_EQ(searched.verdict().effects.size(), 2U);
   searched.found.sets = {{{0, 2}, 2040, 0.9}, {{0}, 2020, 0.06}, {{}, 0, 0}};
@@ -101,6 +102,9 @@ TEST(LayoutVerdict, BesideACauseOfThousandsOfNatsTensNameNothing) {
   EXPECT_NE(answer.remarks.front().find("third of hull, leads by 20 nats only; a name takes 41"),
             std::string::npos)
       << answer.remarks.front();
+  // Nats beyond the number of readings tell nothing more.
+  searched.found.sets = {{{0, 2}, 2e6, 0.9}, {{0}, 2e6 - 110, 0.06}, {{}, 0, 0}};
+  EXPECT_EQ(searched.verdict().effects.size(), 2U);
 }
 
 TEST(LayoutVerdict, OneNominalRecordingTellsNothingOfTheScatterBetweenRecordings) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "diagnosis/limits.h"
 #include "diagnosis/nominal_bank.h"
 #include "tests/diagnosis/micro_case.h"
 
@@ -19,7 +20,7 @@ TEST(RecordingFit, ItsValueFollowsItsScoreWhereGainsAreHeld) {
   const CauseLibrary library = causes_of(of.prior, nominal, {});
   FittedRecording fitted(of.prior, library, nominal, {}, 1);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(library.columns());
-  fitted.hold_gains(none);
+  ASSERT_TRUE(fitted.hold(none));
   const auto here = fitted.fit(none);
   ASSERT_TRUE(here);
   int tried = 0;
@@ -45,7 +46,7 @@ TEST(RecordingFit, TheSlopesOfADelayAndOfALagAreThoseWhereTheyAre) {
   const CauseLibrary library = causes_of(of.prior, slow, {});
   FittedRecording fitted(of.prior, library, slow, {}, 1);
   Eigen::VectorXd at = Eigen::VectorXd::Zero(library.columns());
-  fitted.hold_gains(at);
+  ASSERT_TRUE(fitted.hold(at));
   for (const Cause& cause : library.causes) {
     if (cause.words() == "thruster_lag of thruster.1") at[cause.parameters[0].column] = 0.25;
   }
