@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "pipeline/nav_reading.h"
+#include "pipeline/readings.h"
 #include "report/heading_axis.h"
 #include "report/html_page.h"
 #include "report/svg_plot.h"
