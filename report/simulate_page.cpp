@@ -10,10 +10,9 @@
 
 #include "base/angles.h"
 #include "pipeline/readings.h"
-#include "report/heading_axis.h"
 #include "report/html_page.h"
+#include "report/plot_axes.h"
 #include "report/svg_plot.h"
-#include "report/time_axis.h"
 #include "sim/geodesy.h"
 
 namespace navcal::report {
