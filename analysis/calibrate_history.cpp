@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "base/angles.h"
-#include "pipeline/calib_reading.h"
+#include "pipeline/readings.h"
 
 namespace navcal::analysis {
 namespace {

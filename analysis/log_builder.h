@@ -9,6 +9,7 @@
 
 #include "pipeline/pipeline.h"
 #include "record/log/log_encoder.h"
+#include "record/log/log_info.h"
 #include "record/recording.h"
 #include "record/whole_file.h"
 
@@ -51,5 +52,12 @@ class LogBuilder final : private pipeline::Sink {
   std::int64_t newest_ns_ = 0;
   bool begun_ = false;  ///< the file begins with the first mapping: it is no change
 };
+
+/// A log, as navcald would have written it of these bytes: raw bytes, and the samples, estimates and calibrations
+/// that the pipeline makes of them, with the usual settings of each protocol. The file appears under its name only
+/// when it is whole. Returns what is to be told to the user. Throws record::BadRecording, also when it is a log
+/// already; std::system_error; what `progress` throws ends it too.
+std::vector<std::string> import_capture(const std::filesystem::path& capture, const std::filesystem::path& log,
+                                        const record::Progress& progress);
 
 }  // namespace navcal::analysis

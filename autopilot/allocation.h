@@ -9,6 +9,13 @@
 
 namespace navcal::autopilot {
 
+/// The x within low and high that minimises |A x - b|^2 + eps^2 |x|^2, eps > 0: strictly convex, so it is unique.
+/// Primal active-set method (Nocedal and Wright, Numerical Optimization, 2006, section 16.5): solve with the
+/// variables that are free; go as far as the first limit and hold that variable there; free the one whose gradient
+/// points inwards most; end when none does.
+[[nodiscard]] Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double eps,
+                                                    const Eigen::VectorXd& low, const Eigen::VectorXd& high);
+
 /// Force and moment X, Y, Z, K, M, N about the origin, N and Nm, or a body velocity u, v, w, p, q, r.
 using Wrench = Eigen::Matrix<double, 6, 1>;
 

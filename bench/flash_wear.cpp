@@ -10,7 +10,7 @@
 
 #include "config/load.h"
 #include "record/log/log_encoder.h"
-#include "record/log/log_file.h"
+#include "record/log/log_folder.h"
 
 namespace {
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include "analysis/log_import.h"
-
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <string>
 
 #include "analysis/import/import_log.h"
+#include "analysis/log_builder.h"
 #include "cli/live/commands.h"
 #include "cli/live/result_file.h"
 #include "protocols/device_types.h"

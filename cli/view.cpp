@@ -9,7 +9,7 @@
 #include <string>
 
 #include "analysis/import/import_log.h"
-#include "analysis/log_import.h"
+#include "analysis/log_builder.h"
 #include "base/printable.h"
 #include "base/spawn.h"
 #include "base/temporary_folder.h"

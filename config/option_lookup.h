@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "config/complaints.h"
 #include "config/document.h"
 #include "config/option.h"
-#include "config/suggestion.h"
 
 namespace navcal::config {
 

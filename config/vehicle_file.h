@@ -4,11 +4,16 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "config/error.h"
+#include "config/option.h"
 #include "config/vehicle.h"
 
 namespace navcal::config {
+
+/// Every setting of a vehicle, table by table.
+[[nodiscard]] const std::vector<Option<VehicleSettings>>& vehicle_options();
 
 /// Reads a vehicle (docs/simulator.md); what the file does not say is as in the reference vehicle. Throws Error.
 [[nodiscard]] VehicleSettings load_vehicle(const std::filesystem::path& file);

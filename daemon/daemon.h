@@ -19,6 +19,7 @@
 #include "daemon/control_server.h"
 #include "daemon/health.h"
 #include "daemon/lazy_timer.h"
+#include "daemon/listeners.h"
 #include "daemon/log_writer.h"
 #include "daemon/motor_control.h"
 #include "daemon/nmea_feed.h"
@@ -28,11 +29,10 @@
 #include "daemon/publisher.h"
 #include "daemon/remote_link.h"
 #include "daemon/remote_report.h"
-#include "daemon/socket_activation.h"
 #include "daemon/state_collector.h"
 #include "daemon/status_server.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/system_clock_watch.h"
+#include "pipeline/utc_mapping.h"
 
 namespace navcal::daemon {
 

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "daemon/power_line.h"
+#include "daemon/power_control.h"
 
 namespace navcal::daemon {
 namespace {

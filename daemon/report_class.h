@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace navcal::daemon {
 
@@ -55,5 +56,26 @@ class ReportClasses {
 
 /// Shortest time between two reports of each class, nanoseconds; 0: no limit.
 using ReportIntervals = std::array<std::int64_t, kReportClasses>;
+
+/// Lets reports of one client through at most so often, for each class and slot (a device, a part). The average
+/// keeps to the interval; a report may come half an interval early, so that a device whose rate is just the limit
+/// is not halved by its jitter.
+class ReportPacer {
+ public:
+  /// True when this report may pass; it is then counted.
+  [[nodiscard]] bool take(ReportClass report, std::uint16_t slot, std::int64_t interval_ns, std::int64_t now_ns);
+  /// True when a report might pass; none is counted.
+  [[nodiscard]] bool is_due(ReportClass report, std::uint16_t slot, std::int64_t interval_ns,
+                            std::int64_t now_ns) const;
+  void forget() { next_.clear(); }
+
+ private:
+  struct Next {
+    ReportClass report{};
+    std::uint16_t slot = 0;
+    std::int64_t due_ns = 0;
+  };
+  std::vector<Next> next_;
+};
 
 }  // namespace navcal::daemon

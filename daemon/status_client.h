@@ -14,7 +14,6 @@
 #include "daemon/client_queue.h"
 #include "daemon/record_topics.h"
 #include "daemon/report_class.h"
-#include "daemon/report_pacer.h"
 #include "daemon/request.h"
 
 namespace navcal::daemon {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "pipeline/system_clock_watch.h"
+#include "pipeline/utc_mapping.h"
 
 namespace navcal::daemon {
 

@@ -8,7 +8,6 @@
 
 #include "base/angles.h"
 #include "emulation/chosen_vehicle.h"
-#include "sim/default_path.h"
 #include "sim/path.h"
 #include "sim/vehicle/ordered_helm.h"
 

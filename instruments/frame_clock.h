@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "instruments/clock_model.h"
-#include "instruments/clock_news.h"
+#include "instruments/clock_state.h"
 #include "instruments/device_clock.h"
 #include "instruments/frame_observation.h"
 #include "instruments/period_finder.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "protocols/frame.h"
-#include "protocols/oncore_aid.h"
+#include "protocols/oncore_command.h"
 
 namespace navcal::instruments {
 

@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "base/durations.h"
 #include "base/gravity.h"
-#include "nav/reading_pauses.h"
+#include "nav/readings.h"
 
 namespace navcal::nav {
 namespace {

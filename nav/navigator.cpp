@@ -9,8 +9,8 @@
 #include "base/angles.h"
 #include "base/durations.h"
 #include "base/rotation.h"
-#include "nav/error_radius.h"
-#include "nav/reading_pauses.h"
+#include "nav/dead_reckoning.h"
+#include "nav/readings.h"
 
 namespace navcal::nav {
 namespace {

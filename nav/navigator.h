@@ -12,7 +12,6 @@
 #include "nav/options.h"
 #include "nav/past_poses.h"
 #include "nav/readings.h"
-#include "nav/set_window.h"
 
 namespace navcal::nav {
 

@@ -6,9 +6,8 @@
 
 #include "base/enum_name.h"
 #include "base/local_plane.h"
-#include "pipeline/calib_reading.h"
 #include "pipeline/calibration_options.h"
-#include "pipeline/nav_reading.h"
+#include "pipeline/readings.h"
 
 namespace navcal::pipeline {
 namespace {

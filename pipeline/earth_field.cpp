@@ -9,7 +9,7 @@
 #include "base/angles.h"
 #include "base/enum_name.h"
 #include "base/world_magnetic_model.h"
-#include "pipeline/nav_reading.h"
+#include "pipeline/readings.h"
 
 namespace navcal::pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "base/durations.h"
-#include "pipeline/system_clock_watch.h"
+#include "pipeline/utc_mapping.h"
 
 namespace navcal::pipeline {
 namespace {

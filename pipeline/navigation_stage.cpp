@@ -13,7 +13,7 @@
 #include "base/rotation.h"
 #include "devices/instrument_model.h"
 #include "instruments/compass_error.h"
-#include "pipeline/nav_reading.h"
+#include "pipeline/readings.h"
 
 namespace navcal::pipeline {
 namespace {

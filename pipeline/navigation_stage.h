@@ -16,7 +16,7 @@
 #include "pipeline/navigation.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sources.h"
-#include "pipeline/surfacing_watch.h"
+#include "pipeline/surfacing.h"
 
 namespace navcal::pipeline {
 

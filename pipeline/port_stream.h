@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "config/settings.h"
-#include "instruments/clock_news.h"
+#include "instruments/clock_state.h"
 #include "instruments/frame_clock.h"
 #include "instruments/instrument.h"
 #include "instruments/mounting.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "pipeline/nav_reading.h"
+#include "pipeline/readings.h"
 #include "protocols/device_types.h"
 
 namespace navcal::pipeline {

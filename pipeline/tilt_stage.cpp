@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "pipeline/nav_reading.h"
+#include "pipeline/readings.h"
 
 namespace navcal::pipeline {
 namespace {

@@ -110,21 +110,29 @@ bool read_field(std::size_t group, unsigned bit, const std::uint8_t* p, Reading&
   }
 }
 
-/// Bytes from the sync to the checksum, once all field words are there; 0 for a field without a known size.
-std::size_t binary_length(const std::uint8_t* first) {
-  std::size_t length = 4 + 2 * static_cast<std::size_t>(std::popcount(first[1]));
+/// Calls visit(group, bit) for each field that the field words of a message announce, in their order.
+template <class Visit>
+void each_field(const std::uint8_t* first, Visit visit) {
   const std::uint8_t* word = first + 2;
   for (std::size_t group = 0; group < kFieldSizes.size(); ++group) {
     if ((first[1] >> group & 1U) == 0) continue;
     const unsigned fields = get_le<std::uint16_t>(word);
     word += 2;
     for (unsigned bit = 0; bit < 16; ++bit) {
-      if ((fields >> bit & 1U) == 0) continue;
-      if (kFieldSizes[group][bit] == 0) return 0;
-      length += kFieldSizes[group][bit];
+      if ((fields >> bit & 1U) != 0) visit(group, bit);
     }
   }
-  return length;
+}
+
+/// Bytes from the sync to the checksum, once all field words are there; 0 for a field without a known size.
+std::size_t binary_length(const std::uint8_t* first) {
+  std::size_t length = 4 + 2 * static_cast<std::size_t>(std::popcount(first[1]));
+  bool is_known = true;
+  each_field(first, [&](std::size_t group, unsigned bit) {
+    is_known = is_known && kFieldSizes[group][bit] != 0;
+    length += kFieldSizes[group][bit];
+  });
+  return is_known ? length : 0;
 }
 
 Scan scan_binary(const std::uint8_t* first, std::size_t available) {
@@ -160,18 +168,11 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
 std::optional<Reading> decode_binary(Bytes frame) {
   if (frame.size() < 4 || frame[0] != 0xFA) return std::nullopt;
   Reading reading;
-  const std::uint8_t* word = &frame[2];
-  const std::uint8_t* field = word + 2 * static_cast<std::size_t>(std::popcount(frame[1]));
-  for (std::size_t group = 0; group < kFieldSizes.size(); ++group) {
-    if ((frame[1] >> group & 1U) == 0) continue;
-    const unsigned fields = get_le<std::uint16_t>(word);
-    word += 2;
-    for (unsigned bit = 0; bit < 16; ++bit) {
-      if ((fields >> bit & 1U) == 0) continue;
-      if (!read_field(group, bit, field, reading)) ++reading.unknown_fields;
-      field += kFieldSizes[group][bit];
-    }
-  }
+  const std::uint8_t* field = &frame[2] + 2 * static_cast<std::size_t>(std::popcount(frame[1]));
+  each_field(frame.data(), [&](std::size_t group, unsigned bit) {
+    if (!read_field(group, bit, field, reading)) ++reading.unknown_fields;
+    field += kFieldSizes[group][bit];
+  });
   return reading;
 }
 

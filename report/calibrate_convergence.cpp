@@ -7,8 +7,8 @@
 
 #include "base/angles.h"
 #include "report/calibrate_figures.h"
+#include "report/plot_axes.h"
 #include "report/svg_plot.h"
-#include "report/time_axis.h"
 
 namespace navcal::report {
 namespace {

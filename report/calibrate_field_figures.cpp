@@ -11,8 +11,8 @@
 #include "calib/magnetometer/ellipse_shape.h"
 #include "report/calibrate_figures.h"
 #include "report/calibrate_words.h"
+#include "report/plot_axes.h"
 #include "report/svg_plot.h"
-#include "report/time_axis.h"
 
 namespace navcal::report {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "report/gap_figures.h"
+#include "report/plot_axes.h"
 #include "report/svg_plot.h"
-#include "report/time_axis.h"
 
 namespace navcal::report {
 namespace {

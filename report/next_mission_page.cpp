@@ -6,11 +6,10 @@
 #include <filesystem>
 
 #include "base/angles.h"
-#include "report/heading_axis.h"
 #include "report/html_page.h"
 #include "report/next_mission.h"
+#include "report/plot_axes.h"
 #include "report/svg_plot.h"
-#include "report/time_axis.h"
 
 namespace navcal::report {
 namespace {

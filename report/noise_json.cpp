@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/json/put_members.h"
 #include "report/noise_report.h"
-#include "report/noise_words.h"
 
 namespace navcal::analysis {
 

@@ -11,7 +11,6 @@
 #include "analysis/noise/noise_run.h"
 #include "report/html_page.h"
 #include "report/noise_report.h"
-#include "report/noise_words.h"
 #include "report/shown_number.h"
 #include "report/svg_plot.h"
 

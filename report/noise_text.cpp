@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/append_format.h"
 #include "report/noise_report.h"
-#include "report/noise_words.h"
 #include "report/shown_number.h"
 #include "report/wrapped_text.h"
 

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "pipeline/nav_reading.h"
-#include "report/heading_axis.h"
+#include "pipeline/readings.h"
 #include "report/html_page.h"
+#include "report/plot_axes.h"
 #include "report/svg_plot.h"
-#include "report/time_axis.h"
 #include "sim/geodesy.h"
 
 namespace navcal::report {

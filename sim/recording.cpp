@@ -68,27 +68,26 @@ Recording::Recording(const Options& options, const Motion& motion)
     device->power_on(options.begin_ns);
     channels_.push_back({std::move(device), HostLine(line)});
   };
+  const auto set_up = [&](auto& device, auto& sensor, const devices::Timing& timing) {
+    device.baud = static_cast<int>(timing.baud);
+    device.seed = seed();
+    sensor.effects = &effects_;
+  };
   const devices::InstrumentModel model = model_of(options);
   Tcm2::Options compass;
   compass.go_at_power_on = compass.field_at_power_on = true;
   compass.sensor.compass = model.compass;
-  compass.baud = static_cast<int>(model.compass.timing.baud);
-  compass.seed = seed();
-  compass.sensor.effects = &effects_;
+  set_up(compass, compass.sensor, model.compass.timing);
   compass.clock_ppm = clock_ppm(options.clocks, "compass", compass.clock_ppm);
   add(Instrument::compass, std::make_unique<Tcm2>(compass, motion));
   ImuCard::Options card;
   card.imu = model.imu;
-  card.baud = static_cast<int>(model.imu.timing.baud);
-  card.seed = seed();
-  card.effects = &effects_;
+  set_up(card, card, model.imu.timing);
   card.clock_ppm = clock_ppm(options.clocks, "imu", card.clock_ppm);
   add(Instrument::imu, std::make_unique<ImuCard>(card, motion));
   Oncore::Options receiver;
   receiver.receiver.gps = model.gps;
-  receiver.baud = static_cast<int>(model.gps.timing.baud);
-  receiver.seed = seed();
-  receiver.receiver.effects = &effects_;
+  set_up(receiver, receiver.receiver, model.gps.timing);
   receiver.receiver.origin = options.origin;
   add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
   if (options.commands == CommandPort::outputs) {
@@ -96,9 +95,7 @@ Recording::Recording(const Options& options, const Motion& motion)
   } else {
     MotorCard::Options motor;
     motor.motor = model.motor;
-    motor.baud = static_cast<int>(model.motor.timing.baud);
-    motor.seed = seed();
-    motor.effects = &effects_;
+    set_up(motor, motor, model.motor.timing);
     motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);
     add(Instrument::motor, std::make_unique<MotorCard>(motor, motion));
   }

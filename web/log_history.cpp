@@ -18,7 +18,7 @@
 #include "ports/no_throw.h"
 #include "record/json/base64.h"
 #include "record/json/json_members.h"
-#include "record/log/message_crc.h"
+#include "record/log/checksum.h"
 #include "web/message_fields.h"
 
 namespace navcal::web {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/csv_log.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <optional>
 
 #include "analysis/import/csv_samples.h"
+#include "analysis/import/log_readers.h"
 #include "base/line_reader.h"
 #include "protocols/decimal.h"
 #include "record/recording.h"

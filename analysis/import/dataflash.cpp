@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/dataflash.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,6 +10,7 @@
 
 #include "analysis/import/dataflash_plan.h"
 #include "analysis/import/gps_week.h"
+#include "analysis/import/log_readers.h"
 #include "analysis/import/port_name.h"
 #include "analysis/import/servo_parameters.h"
 #include "base/angles.h"

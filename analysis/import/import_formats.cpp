@@ -4,14 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "analysis/import/csv_log.h"
-#include "analysis/import/dataflash.h"
 #include "analysis/import/import_report.h"
-#include "analysis/import/mavlink_log.h"
+#include "analysis/import/log_readers.h"
 #include "analysis/import/motor_channels.h"
-#include "analysis/import/ros_bag.h"
-#include "analysis/import/slocum.h"
-#include "analysis/import/ulog.h"
 #include "record/recording.h"
 
 namespace navcal::analysis {

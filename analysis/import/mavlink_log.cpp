@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/mavlink_log.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -9,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "analysis/import/log_readers.h"
 #include "analysis/import/port_name.h"
 #include "analysis/import/servo_parameters.h"
 #include "base/angles.h"

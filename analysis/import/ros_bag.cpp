@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/ros_bag.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "analysis/import/decompress.h"
+#include "analysis/import/log_readers.h"
 #include "analysis/import/ros_messages.h"
 #include "analysis/import/wire_reader.h"
 #include "protocols/ros2/cdr_reader.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/slocum.h"
-
 #include <fmt/format.h>
 #include <strings.h>
 
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "analysis/import/decompress.h"
+#include "analysis/import/log_readers.h"
 #include "analysis/import/mapped_file.h"
 #include "analysis/import/port_name.h"
 #include "base/angles.h"

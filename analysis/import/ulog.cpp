@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/ulog.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -11,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/import/log_readers.h"
 #include "analysis/import/port_name.h"
 #include "analysis/import/servo_parameters.h"
 #include "analysis/import/ulog_format.h"

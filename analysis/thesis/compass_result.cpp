@@ -2,7 +2,7 @@
 #include "analysis/thesis/thesis_parts.h"
 #include "base/angles.h"
 #include "calib/thesis/printed_tables.h"
-#include "calib/thesis/turn_monte_carlo.h"
+#include "calib/thesis/turn_problem.h"
 
 namespace navcal::analysis {
 

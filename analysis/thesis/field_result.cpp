@@ -6,8 +6,7 @@
 #include "analysis/thesis/thesis_parts.h"
 #include "base/angles.h"
 #include "base/statistics.h"
-#include "calib/thesis/circle_moments.h"
-#include "calib/thesis/ellipse_bound.h"
+#include "calib/thesis/distorted_field.h"
 #include "calib/thesis/printed_tables.h"
 
 namespace navcal::analysis {

@@ -5,8 +5,7 @@
 #include "analysis/thesis/thesis_parts.h"
 #include "base/angles.h"
 #include "calib/thesis/adaptive_identifier.h"
-#include "calib/thesis/filtered_turns.h"
-#include "calib/thesis/turn_monte_carlo.h"
+#include "calib/thesis/turn_problem.h"
 
 namespace navcal::analysis {
 

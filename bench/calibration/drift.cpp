@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bench/calibration/turn_tables.h"
-#include "calib/thesis/turn_monte_carlo.h"
+#include "calib/thesis/turn_problem.h"
 #include "calib/turn/turn_integrator.h"
 #include "tests/calib/thesis_paths.h"
 

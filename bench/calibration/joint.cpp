@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bench/calibration/turn_tables.h"
-#include "calib/thesis/turn_monte_carlo.h"
+#include "calib/thesis/turn_problem.h"
 #include "tests/calib/thesis_paths.h"
 
 namespace navcal::bench {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "calib/magnetometer/ellipse_estimator.h"
-#include "calib/thesis/circle_moments.h"
+#include "calib/thesis/distorted_field.h"
 #include "tests/calib/level_field.h"
 #include "tests/calib/thesis_paths.h"
 

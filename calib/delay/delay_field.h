@@ -7,7 +7,6 @@
 
 #include "calib/archive.h"
 #include "calib/delay/delay.h"
-#include "calib/delay/delay_blocks.h"
 #include "calib/readings.h"
 
 namespace navcal::calib {

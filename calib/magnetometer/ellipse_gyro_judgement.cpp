@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/angles.h"
-#include "calib/field_coverage.h"
+#include "calib/coverage.h"
 #include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/magnetometer/ellipse_judgement.h"
 #include "calib/magnetometer/ellipse_shape.h"

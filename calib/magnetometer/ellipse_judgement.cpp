@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/symmetric_eigen.h"
-#include "calib/field_coverage.h"
+#include "calib/coverage.h"
 #include "calib/magnetometer/ellipse_estimator.h"
 #include "calib/magnetometer/ellipse_shape.h"
 

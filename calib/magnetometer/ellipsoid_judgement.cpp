@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "calib/field_coverage.h"
+#include "calib/coverage.h"
 #include "calib/magnetometer/ellipse_judgement.h"
 #include "calib/magnetometer/ellipsoid_estimator.h"
 

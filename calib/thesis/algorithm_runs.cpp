@@ -7,8 +7,7 @@
 
 #include "base/angles.h"
 #include "calib/thesis/adaptive_identifier.h"
-#include "calib/thesis/compass_least_squares.h"
-#include "calib/thesis/gyro_least_squares.h"
+#include "calib/thesis/heading_least_squares.h"
 
 namespace navcal::calib::thesis {
 

@@ -7,10 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "calib/thesis/filtered_turns.h"
+#include "calib/turn/turn_integrator.h"
 
 namespace navcal::calib::thesis {
-
 namespace {
 
 Deviation deviation_of(TurnProblem problem) {
@@ -28,6 +27,30 @@ TurnPrior prior_of(TurnProblem problem) {
 }
 
 }  // namespace
+
+TurnFilter turn_filter(const TurnPrior& prior) {
+  TurnFilter::Parameters parameters;
+  parameters.heading_noise_rad = Noise{}.heading_rad;
+  parameters.rate_noise_rad_sqrt_s = Noise{}.rate_rad_s * std::sqrt(kPeriod_s);
+  return TurnFilter(parameters, prior);
+}
+
+std::vector<TurnStep> turn_steps(std::span<const Measured> readings) {
+  TurnIntegrator integrator({});
+  std::vector<TurnStep> steps;
+  for (const Measured& m : readings) {
+    integrator.update(compass_of(m));
+    integrator.update(rate_of(m));
+    while (const auto step = integrator.next()) steps.push_back(*step);
+  }
+  return steps;
+}
+
+TurnFilter filtered(std::span<const Measured> readings, const TurnPrior& prior) {
+  TurnFilter filter = turn_filter(prior);
+  for (const TurnStep& step : turn_steps(readings)) filter.update(step);
+  return filter;
+}
 
 std::vector<int> sought(TurnProblem problem) {
   switch (problem) {
@@ -101,6 +124,32 @@ CurveError curve_error(const Eigen::Vector4d& error) {
   }
   found.deviation_deg = std::sqrt(square / kPoints);  // harmonics have no mean
   return found;
+}
+
+TurnStatistics monte_carlo(TurnProblem problem, const std::vector<TruePoint>& path, int runs, std::uint64_t seed) {
+  const Noise noise;
+  const std::vector<int> coefficients = sought(problem);
+  const TurnCoefficients truth = true_coefficients(problem);
+  Random random(seed);
+  TurnStatistics statistics;
+  statistics.bound = cramer_rao(problem, path, noise);
+  statistics.rms = statistics.covered = Eigen::VectorXd::Zero(statistics.bound.size());
+  for (int run = 0; run < runs; ++run) {
+    const TurnFilter filter = filtered(problem, measure(problem, path, noise, random));
+    const TurnCoefficients error = filter.estimate() - truth;
+    const TurnCovariance covariance = filter.covariance();
+    for (Eigen::Index i = 0; i < statistics.rms.size(); ++i) {
+      const int c = coefficients[static_cast<std::size_t>(i)];
+      statistics.rms[i] += error[c] * error[c] / runs;
+      if (std::abs(error[c]) < 2 * std::sqrt(covariance(c, c))) statistics.covered[i] += 1.0 / runs;
+    }
+    const CurveError curve = curve_error(error.tail<4>());
+    statistics.curve.largest_deg += curve.largest_deg / runs;
+    statistics.curve.deviation_deg += curve.deviation_deg / runs;
+    statistics.reduced_chi_squared += filter.reduced_chi_squared() / runs;
+  }
+  statistics.rms = statistics.rms.cwiseSqrt();
+  return statistics;
 }
 
 }  // namespace navcal::calib::thesis

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "calib/thesis/measured_path.h"
 #include "calib/turn/turn_filter.h"
+#include "calib/turn/turn_step.h"
 
 /// The three problems of turns on one of the reference paths: what our filter finds, and what could be found.
 namespace navcal::calib::thesis {
+
+/// The filter before any reading, told the thesis's own noise.
+[[nodiscard]] TurnFilter turn_filter(const TurnPrior& prior);
+/// The turn between readings, in their order; the first steps belong to the first readings.
+[[nodiscard]] std::vector<TurnStep> turn_steps(std::span<const Measured> readings);
+/// The filter after all of these readings, told the thesis's own noise.
+[[nodiscard]] TurnFilter filtered(std::span<const Measured> readings, const TurnPrior& prior);
 
 enum class TurnProblem {
   gyro,     ///< the compass has no error (THESIS 11.1)
@@ -42,5 +52,20 @@ struct CurveError {
   double deviation_deg = 0;  ///< standard deviation
 };
 [[nodiscard]] CurveError curve_error(const Eigen::Vector4d& error_of_B_to_E_rad);
+
+/// Results of our filter on one path in many runs with the thesis's noise; vectors in the order of sought().
+struct TurnStatistics {
+  Eigen::VectorXd rms, bound;
+  Eigen::VectorXd covered;  ///< share of runs with the truth within two standard errors
+  CurveError curve;         ///< means of the runs' own, degrees
+  double reduced_chi_squared = 0;
+
+  /// Ratio of root-mean-square error to bound, of the worst coefficient.
+  [[nodiscard]] double worst_ratio() const { return (rms.array() / bound.array()).maxCoeff(); }
+};
+
+/// The same runs for the same seed.
+[[nodiscard]] TurnStatistics monte_carlo(TurnProblem problem, const std::vector<TruePoint>& path, int runs,
+                                         std::uint64_t seed);
 
 }  // namespace navcal::calib::thesis

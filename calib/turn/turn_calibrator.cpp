@@ -7,7 +7,6 @@
 
 #include "base/angles.h"
 #include "calib/coverage.h"
-#include "calib/field_coverage.h"
 
 namespace navcal::calib {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/printable.h"
 #include "cli/live/commands.h"
 #include "cli/live/exit_statuses.h"
-#include "config/suggestion.h"
+#include "config/complaints.h"
 #include "share/manual.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "autopilot/autopilot.h"
-#include "autopilot/reading.h"
+#include "autopilot/pilot.h"
 #include "cli/live/line_socket.h"
 
 namespace navcal::cli {

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "autopilot/pilot.h"
-#include "autopilot/reading.h"
 
 namespace navcal::cli {
 

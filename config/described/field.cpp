@@ -2,14 +2,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/line_reader.h"
 #include "config/column_meaning.h"
+#include "config/complaints.h"
 #include "config/described/description_file.h"
 #include "config/described/parts.h"
-#include "config/suggestion.h"
+#include "config/text_rules.h"
 #include "protocols/decimal.h"
 
 namespace navcal::config {
@@ -26,10 +26,7 @@ constexpr std::size_t kLongestUnit = 15;  // likewise
 constexpr int kLastField = 128;           // as protocols/described/text.h
 
 bool is_field_name(std::string_view text) {
-  return !text.empty() && text.size() <= kLongestName && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
-           c == '-';
-  });
+  return !text.empty() && text.size() <= kLongestName && is_identifier_or_nothing(text);
 }
 
 std::vector<std::string> meaning_names() {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "config/complaints.h"
 #include "config/described/parts.h"
-#include "config/suggestion.h"
 #include "protocols/checked_line.h"
 
 namespace navcal::config::described {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "config/suggestion.h"
+#include "config/complaints.h"
 #include "protocols/decimal.h"
 
 namespace navcal::config {

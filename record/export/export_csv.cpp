@@ -13,8 +13,8 @@
 #include "record/export/topic_columns.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
+#include "record/log/checksum.h"
 #include "record/log/log_utc.h"
-#include "record/log/message_crc.h"
 #include "record/recording.h"
 #include "record/whole_file.h"
 

@@ -7,7 +7,7 @@
 
 #include "record/json/flat_json.h"
 #include "record/json/mapping_json.h"
-#include "record/log/message_crc.h"
+#include "record/log/checksum.h"
 
 namespace navcal::record {
 namespace {

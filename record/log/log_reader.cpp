@@ -7,7 +7,6 @@
 
 #include "record/log/checksum.h"
 #include "record/log/mcap_fields.h"
-#include "record/log/message_crc.h"
 #include "record/recording.h"
 
 namespace navcal::record {

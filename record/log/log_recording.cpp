@@ -10,8 +10,8 @@
 #include "record/json/calibration_json.h"
 #include "record/json/flat_json.h"
 #include "record/json/mapping_json.h"
+#include "record/log/checksum.h"
 #include "record/log/log_topics.h"
-#include "record/log/message_crc.h"
 
 namespace navcal::record {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "config/suggestion.h"
+#include "config/complaints.h"
 #include "sim/effects/effect_table.h"
 #include "sim/layout/effects/layout_effects.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "config/suggestion.h"
+#include "config/complaints.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 #include "sim/layout/effects/layout_effects.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/durations.h"
-#include "protocols/oncore_aid.h"
+#include "protocols/oncore_command.h"
 #include "sim/instruments/oncore_messages.h"
 
 namespace navcal::sim {

@@ -11,7 +11,7 @@
 #include "autopilot/thrust_curve.h"
 #include "config/layout.h"
 #include "sim/layout/actuators.h"
-#include "sim/layout/vector_of.h"
+#include "sim/layout/mass_matrix.h"
 #include "sim/vehicle/body.h"
 #include "sim/vehicle/influences.h"
 

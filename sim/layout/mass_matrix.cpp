@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/layout/vector_of.h"
-
 namespace navcal::sim {
 namespace {
 

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/vectors.h"
 #include "config/layout.h"
 #include "sim/layout/actuators.h"
 #include "sim/vehicle/body.h"
 
 namespace navcal::sim {
+
+using base::vector_of;
+
+[[nodiscard]] inline Matrix6 matrix_of(const config::LayoutMatrix& rows) {
+  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(rows.data());
+}
 
 /// Lamb's inertia coefficients of a prolate spheroid (Lamb, Hydrodynamics, articles 114 and 115; Fossen, Handbook
 /// of Marine Craft Hydrodynamics and Motion Control, 2011, chapter 6): added mass over displaced mass along the

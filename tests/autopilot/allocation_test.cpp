@@ -9,7 +9,6 @@
 #include <cmath>
 #include <random>
 
-#include "autopilot/bounded_least_squares.h"
 #include "autopilot/controllability.h"
 #include "autopilot/thrust_curve.h"
 

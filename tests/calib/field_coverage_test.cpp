@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/field_coverage.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "base/angles.h"
+#include "calib/coverage.h"
 
 namespace navcal::calib {
 namespace {

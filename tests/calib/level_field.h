@@ -10,7 +10,6 @@
 
 #include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/thesis/distorted_field.h"
-#include "calib/thesis/ellipse_bound.h"
 #include "calib/thesis/measured_path.h"
 #include "calib/turn/turn_integrator.h"
 

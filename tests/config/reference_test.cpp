@@ -13,7 +13,7 @@
 #include "config/mission_limits.h"
 #include "config/mission_options.h"
 #include "config/options.h"
-#include "config/vehicle_options.h"
+#include "config/vehicle_file.h"
 
 namespace navcal::config {
 namespace {

@@ -8,8 +8,6 @@
 #include <random>
 #include <sstream>
 
-#include "config/vehicle_options.h"
-
 namespace navcal::config {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "protocols/oncore_aid.h"
+#include "protocols/oncore_command.h"
 #include "protocols/oncore_position.h"
 #include "record/recording.h"
 #include "sim/instruments/oncore.h"

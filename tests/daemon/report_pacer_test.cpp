@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "daemon/report_pacer.h"
-
 #include <gtest/gtest.h>
+
+#include "daemon/report_class.h"
 
 namespace navcal::daemon {
 namespace {

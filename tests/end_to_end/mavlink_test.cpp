@@ -13,8 +13,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "record/log/checksum.h"
 #include "record/log/log_reader.h"
-#include "record/log/message_crc.h"
 #include "record/recording.h"
 #include "tests/support/free_port.h"
 #include "tests/support/process.h"

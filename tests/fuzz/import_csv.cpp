@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bytes before the first zero are the map, those behind it the file.
-#include "analysis/import/csv_log.h"
+#include "analysis/import/log_readers.h"
 #include "config/error.h"
 #include "record/recording.h"
 #include "tests/fuzz/import_sink.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/slocum.h"
+#include "analysis/import/log_readers.h"
 #include "record/recording.h"
 #include "tests/fuzz/import_sink.h"
 #include "tests/fuzz/target.h"

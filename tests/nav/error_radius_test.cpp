@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nav/error_radius.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "nav/set_window.h"
-
 namespace navcal::nav {
 namespace {
 

@@ -9,7 +9,7 @@
 #include "base/angles.h"
 #include "base/durations.h"
 #include "base/local_plane.h"
-#include "pipeline/nav_reading.h"
+#include "pipeline/readings.h"
 
 namespace navcal::pipeline {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/surfacing_watch.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/durations.h"
+#include "pipeline/surfacing.h"
 
 namespace navcal::pipeline {
 namespace {

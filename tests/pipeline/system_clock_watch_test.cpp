@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/system_clock_watch.h"
-
 #include <gtest/gtest.h>
 
 #include "base/durations.h"
+#include "pipeline/utc_mapping.h"
 
 namespace navcal::pipeline {
 namespace {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocols/oncore_aid.h"
 
 #include <gtest/gtest.h>
 

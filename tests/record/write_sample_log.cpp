@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "record/log/log_file.h"
+#include "record/log/log_folder.h"
 #include "record/log/log_repair.h"
 #include "tests/record/sample_log.h"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/heading_axis.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "report/time_axis.h"
+#include "report/plot_axes.h"
 
 namespace navcal::cli {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/noise_words.h"
 #include "tests/analysis/noise/made_noise.h"
 #include "tests/report/markup.h"
 

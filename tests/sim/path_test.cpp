@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "config/error.h"
-#include "sim/default_path.h"
 #include "sim/rotation.h"
 #include "tests/sim/drive.h"
 

@@ -8,7 +8,6 @@
 #include "protocols/motor_card.h"
 #include "protocols/oncore.h"
 #include "protocols/tcm2.h"
-#include "sim/default_path.h"
 #include "sim/path.h"
 #include "tests/sim/drive.h"
 #include "tests/sim/effects/at_rest.h"

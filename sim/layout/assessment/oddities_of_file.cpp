@@ -8,7 +8,6 @@
 #include "base/gravity.h"
 #include "sim/layout/assessment/parts.h"
 #include "sim/layout/mass_matrix.h"
-#include "sim/layout/vector_of.h"
 
 namespace navcal::sim::assessment {
 namespace {

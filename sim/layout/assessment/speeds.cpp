@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/layout/assessment/parts.h"
-#include "sim/layout/vector_of.h"
+#include "sim/layout/mass_matrix.h"
 
 namespace navcal::sim::assessment {
 namespace {

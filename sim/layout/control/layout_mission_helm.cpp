@@ -8,9 +8,9 @@
 #include "autopilot/shaft_speed.h"
 #include "base/angles.h"
 #include "base/gravity.h"
-#include "sim/layout/control/mission_needs.h"
+#include "sim/layout/control/control_plan.h"
+#include "sim/layout/mass_matrix.h"
 #include "sim/layout/pulses.h"
-#include "sim/layout/vector_of.h"
 
 namespace navcal::sim {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "autopilot/allocation.h"
 #include "autopilot/autopilot.h"
-#include "autopilot/mission_steps.h"
+#include "autopilot/mission_orders.h"
 #include "config/layout.h"
 #include "config/mission.h"
 #include "sim/layout/control/control_plan.h"
@@ -84,7 +84,7 @@ class AxisControl {
 ///   neutral,
 ///     and against the moments of pitch and yaw of sway and heave, where these turn the vehicle across its way
 ///     (Munk)
-///   a: surge by the error of the speed and its integral; yaw, heave, roll, pitch by axis_control.h; sway brakes
+///   a: surge by the error of the speed and its integral; yaw, heave, roll, pitch by AxisControl; sway brakes
 ///   pitch demanded (DepthControl::pitch) = e/(T u) + integral, nose up when too deep, within 25 degrees
 /// The commands are those of autopilot::Allocator for tau. Loops are as fast as the slowest actuator that serves
 /// them allows: w = min(1.2, 0.35/(lag + period)) rad/s, 0.6 at most in heave. A rudder of 25 degrees is the whole

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/csv_log.h"
-
 #include <gtest/gtest.h>
 
+#include "analysis/import/log_readers.h"
 #include "record/recording.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/dataflash.h"
-
 #include <gtest/gtest.h>
 
 #include "analysis/import/gps_week.h"
+#include "analysis/import/log_readers.h"
 #include "instruments/autopilot_compass.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"

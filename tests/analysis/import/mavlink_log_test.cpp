@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/mavlink_log.h"
-
 #include <gtest/gtest.h>
 
+#include "analysis/import/log_readers.h"
 #include "config/load.h"
 #include "instruments/autopilot_compass.h"
 #include "instruments/sample_fields.h"

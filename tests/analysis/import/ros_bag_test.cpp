@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/ros_bag.h"
-
 #include <gtest/gtest.h>
 #include <lz4frame.h>
 #include <zstd.h>
@@ -12,6 +10,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "analysis/import/log_readers.h"
 #include "record/log/checksum.h"
 #include "record/log/mcap_format.h"
 #include "record/recording.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/slocum.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "analysis/import/log_readers.h"
 #include "record/recording.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/ulog.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "analysis/import/log_readers.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"

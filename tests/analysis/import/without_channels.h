@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "analysis/import/dataflash.h"
-#include "analysis/import/mavlink_log.h"
-#include "analysis/import/ros_bag.h"
-#include "analysis/import/ulog.h"
+#include "analysis/import/log_readers.h"
 
 namespace navcal::analysis {
 

@@ -10,9 +10,8 @@
 
 #include "base/angles.h"
 #include "calib/thesis/adaptive_identifier.h"
-#include "calib/thesis/circle_moments.h"
-#include "calib/thesis/compass_least_squares.h"
-#include "calib/thesis/gyro_least_squares.h"
+#include "calib/thesis/distorted_field.h"
+#include "calib/thesis/heading_least_squares.h"
 #include "tests/calib/thesis_paths.h"
 
 /// The algorithms of the thesis (Mach 2003) give on our paths what another implementation of them gave.

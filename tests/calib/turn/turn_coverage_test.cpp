@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "calib/thesis/filtered_turns.h"
+#include "calib/thesis/turn_problem.h"
 #include "tests/calib/thesis_paths.h"
 
 namespace navcal::calib {

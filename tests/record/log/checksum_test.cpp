@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "record/log/message_crc.h"
-
 namespace navcal::record {
 namespace {
 

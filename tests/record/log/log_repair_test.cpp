@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "record/log/log_file.h"
+#include "record/log/log_folder.h"
 #include "record/log/log_reader.h"
 #include "tests/record/memory_disk.h"
 #include "tests/record/memory_source.h"

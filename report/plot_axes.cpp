@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/heading_axis.h"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
+#include "report/plot_axes.h"
 
 namespace navcal::report {
 namespace {

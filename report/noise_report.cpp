@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/noise_words.h"
+#include "report/noise_report.h"
 
 #include <fmt/format.h>
 

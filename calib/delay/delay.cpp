@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/delay/delay_blocks.h"
+#include "calib/delay/delay.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/clock_news.h"
+#include "instruments/clock_state.h"
 
 #include <fmt/format.h>
 
