@@ -65,18 +65,7 @@ void add_oddities(const std::string& actuator, const std::string& channel, const
                               actuator, channel, std::max({longest_s, late_s, early_s})));
 }
 
-/// Pulses that move a thruster in another unit: 1100, 1500 and 1900 us are its lower limit, neutral and upper
-/// limit.
-Signal commands_of(const Signal& pulses, const config::LayoutThruster& thruster) {
-  constexpr double kNeutral_us = 1500, kHalfRange_us = 400;
-  Signal commands = pulses;
-  commands.is_pulse = false;
-  for (double& value : commands.values) {
-    const double part = (value - kNeutral_us) / kHalfRange_us, neutral = thruster.neutral();
-    value = neutral + part * (part > 0 ? thruster.high - neutral : neutral - thruster.low);
-  }
-  return commands;
-}
+std::string output_name(std::size_t place) { return fmt::format("output{}", place); }
 
 std::string_view unit_name(config::CommandUnit unit) {
   return base::enum_name<config::CommandUnit::microseconds>(unit, {"rpm", "%", "us"});
@@ -143,7 +132,7 @@ void ActuatorTrajectory::mean(double time_s, double over_s, sim::ActuatorValues&
 std::vector<std::string> signals_of_thruster(const config::Layout& layout, std::size_t thruster) {
   const config::LayoutThruster& of = layout.thrusters[thruster];
   if (!of.channel.empty()) return {of.channel};
-  if (of.unit != config::CommandUnit::rpm) return {fmt::format("output{}", thruster + 1)};
+  if (of.unit != config::CommandUnit::rpm) return {output_name(thruster + 1)};
   if (layout.thrusters.size() > 1) return {fmt::format("rpm{}", thruster + 1)};
   return {"rpm", "rpm_commanded"};
 }
@@ -162,12 +151,25 @@ bool is_position(const RecordedMotion& motion, const std::string& signal) {
   return signal == "rpm" || (signal.starts_with("fin_") && motion.fins_are_reported);
 }
 
-ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator,
-                                               const std::vector<std::string>& wanted) {
+ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator, std::vector<std::string> wanted,
+                                               const std::string& channel, const sim::PulseRange& range) {
+  const std::size_t place = ++actuators_;
+  const std::size_t usual = wanted.size();
+  if (has_each_output_ && channel.empty() && std::ranges::count(wanted, output_name(place)) == 0)
+    wanted.push_back(output_name(place));
   for (const std::string& name : wanted) {
     const auto found = motion_.signals.find(name);
     if (found == motion_.signals.end() || found->second.empty()) continue;
-    return {&found->second, is_position(motion_, name), name, nullptr};
+    are_by_place_ = are_by_place_ || (wanted.size() > usual && name == wanted.back());
+    Input input{&found->second, is_position(motion_, name), name, nullptr};
+    if (input.signal->is_pulse && !range.is_pulse) {
+      auto commands = std::make_shared<Signal>(*input.signal);
+      commands->is_pulse = false;
+      for (double& value : commands->values) value = range.command(value);
+      input.signal = commands.get();
+      input.converted = std::move(commands);
+    }
+    return input;
   }
   std::string names, there;
   for (const std::string& name : wanted) names += (names.empty() ? "" : " or ") + name;
@@ -179,25 +181,28 @@ ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator,
 }
 
 ActuatorInputs::ActuatorInputs(const config::Layout& layout, const RecordedMotion& motion) : motion_(motion) {
+  const std::vector<sim::PulseRange> ranges = sim::pulse_ranges(layout);
+  has_each_output_ = !motion.signals.contains(output_name(ranges.size() + 1));
+  for (std::size_t place = 1; place <= ranges.size(); ++place)
+    has_each_output_ = has_each_output_ && motion.signals.contains(output_name(place));
+  auto range = ranges.begin();
   for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
-    const config::LayoutThruster& thruster = layout.thrusters[i];
-    Input input = input_of("thruster " + thruster.name, signals_of_thruster(layout, i));
-    if (input.signal != nullptr && input.signal->is_pulse && thruster.unit != config::CommandUnit::microseconds) {
-      input.converted = std::make_shared<const Signal>(commands_of(*input.signal, thruster));
-      input.signal = input.converted.get();
-    }
-    thrusters_.push_back(std::move(input));
+    const config::LayoutThruster& of = layout.thrusters[i];
+    thrusters_.push_back(input_of("thruster " + of.name, signals_of_thruster(layout, i), of.channel, *range++));
   }
-  for (std::size_t i = 0; i < layout.surfaces.size(); ++i)
-    surfaces_.push_back(input_of("surface " + layout.surfaces[i].name, signals_of_surface(layout, i)));
+  for (std::size_t i = 0; i < layout.surfaces.size(); ++i) {
+    const config::LayoutSurface& of = layout.surfaces[i];
+    surfaces_.push_back(input_of("surface " + of.name, signals_of_surface(layout, i), of.channel, *range++));
+  }
   const auto of_channel = [&](const std::string& channel, const char* usual) {
     if (channel.empty() && motion.signals.count(usual) == 0) return std::vector<std::string>{};
     return std::vector<std::string>{channel.empty() ? usual : channel};
   };
-  for (const auto& ballast : layout.ballasts)
-    ballasts_.push_back(input_of("ballast " + ballast.name, of_channel(ballast.channel, "ballast")));
-  for (const auto& mass : layout.moving_masses)
-    masses_.push_back(input_of("moving mass " + mass.name, of_channel(mass.channel, "moving_mass")));
+  for (const auto& of : layout.ballasts)
+    ballasts_.push_back(input_of("ballast " + of.name, of_channel(of.channel, "ballast"), of.channel, *range++));
+  for (const auto& of : layout.moving_masses)
+    masses_.push_back(
+        input_of("moving mass " + of.name, of_channel(of.channel, "moving_mass"), of.channel, *range++));
 }
 
 template <class Is>
@@ -218,6 +223,10 @@ bool ActuatorInputs::use(const std::string& signal) const {
 
 std::vector<std::string> ActuatorInputs::oddities(const config::Layout& layout) const {
   std::vector<std::string> words;
+  if (are_by_place_)
+    words.emplace_back(
+        "pulses are taken for commands of the layout's actuators, in its order: 1100 us for the lower limit, 1500 "
+        "for neutral, 1900 for the upper limit");
   for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
     const config::LayoutThruster& thruster = layout.thrusters[i];
     if (thrusters_[i].signal != nullptr)

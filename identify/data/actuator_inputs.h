@@ -8,6 +8,7 @@
 #include "config/layout.h"
 #include "identify/data/recorded_motion.h"
 #include "sim/layout/actuators.h"
+#include "sim/layout/pulses.h"
 
 namespace navcal::identify {
 
@@ -46,10 +47,11 @@ class ActuatorTrajectory {
 ///
 /// A thruster in rpm follows "rpm" of the motor card, which is its position; without it "rpm_commanded", which is
 /// a command that its lag follows. The k-th thruster in us or percent follows the quantity "output<k>", a command;
-/// pulses of a thruster in percent or rpm (`channel`) are converted. The k-th movable surface follows "fin_<k>": a
+/// pulses of what has another unit are converted (sim::PulseRange). The k-th movable surface follows "fin_<k>": a
 /// position where a motor card reported it, else a command. The key `channel` of the layout names another signal,
 /// which is a command. Without it, ballasts follow "ballast" and moving masses "moving_mass", else they stay
-/// neutral.
+/// neutral. Where none of these signals is there and the recording has just one output for each actuator, the
+/// outputs are theirs, in the order of the ranges.
 class ActuatorInputs {
  public:
   /// `motion` must outlive it.
@@ -72,14 +74,17 @@ class ActuatorInputs {
     const Signal* signal = nullptr;  ///< nullptr: neutral
     bool is_position = false;
     std::string name;
-    std::shared_ptr<const Signal> converted;  ///< of pulses, in the unit of the thruster
+    std::shared_ptr<const Signal> converted;  ///< of pulses, in the unit of the command
   };
   /// Whether a predicate holds for any input that has its signal.
   template <class Is>
   [[nodiscard]] bool has_any(Is is) const;
-  [[nodiscard]] Input input_of(const std::string& actuator, const std::vector<std::string>& wanted);
+  [[nodiscard]] Input input_of(const std::string& actuator, std::vector<std::string> wanted,
+                               const std::string& channel, const sim::PulseRange& range);
 
   const RecordedMotion& motion_;
+  bool has_each_output_ = false, are_by_place_ = false;  ///< outputs, for each actuator; used for some
+  std::size_t actuators_ = 0;                            ///< that have their input
   std::vector<Input> thrusters_, surfaces_, ballasts_, masses_;
   std::vector<std::string> missing_;
 };

@@ -7,13 +7,23 @@
 
 namespace navcal::sim {
 
-/// Commands of all actuators as pulses in us, as servos and speed controllers take them: thrusters, surfaces,
-/// ballasts, moving masses, each in the order of the layout. A thruster that is commanded in us has its command;
-/// of any other 1500 us are neutral, 1900 the upper limit of the command and 1100 the lower one, with straight
-/// lines between them. A limit at neutral leaves nothing on its side. Whole us, as they are sent.
+/// What the pulses mean that a servo or speed controller takes, in us. A thruster that is commanded in us has its
+/// command; of any other actuator 1500 us are neutral, 1900 the upper limit of the command and 1100 the lower one,
+/// with straight lines between them. A limit at neutral leaves nothing on its side.
+struct PulseRange {
+  double low, neutral, high;  ///< commands
+  bool is_pulse = false;      ///< a command is a pulse
+
+  /// Beyond the limits as well.
+  [[nodiscard]] double command(double pulse_us) const;
+};
+/// Of all actuators: thrusters, surfaces, ballasts, moving masses, each in the order of the layout.
+[[nodiscard]] std::vector<PulseRange> pulse_ranges(const config::Layout& layout);
+
+/// Commands of all actuators as pulses, in the order of their ranges. Whole us, as they are sent.
 [[nodiscard]] std::vector<double> pulses_of(const config::Layout& layout, const ActuatorValues& commands);
 
-/// The commands that these pulses mean; pulses that are missing count as neutral.
+/// The commands that these pulses mean, within their limits; pulses that are missing count as neutral.
 [[nodiscard]] ActuatorValues commands_of(const config::Layout& layout, const std::vector<double>& pulses_us);
 
 /// Number of actuators.

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "config/layout/layout_file.h"
 #include "sim/layout/actuators.h"
+#include "sim/layout/pulses.h"
 
 namespace navcal::identify {
 namespace {
@@ -60,6 +62,34 @@ TEST(ActuatorInputs, TheShippedGliderFollowsBallastAndMovingMass) {
   EXPECT_NEAR(found.ballasts_N.at(0), 1.5, 1e-9);
   EXPECT_NEAR(found.masses_m.at(0), -0.02, 1e-9);
   EXPECT_EQ(still.ballasts_N.at(0), 0);
+}
+
+// What navcal simulate records of a layout with a propeller in rpm and fins: it could not be diagnosed.
+TEST(ActuatorInputs, OutputsOfAllActuatorsAreTheirCommandsInTheOrderOfTheLayout) {
+  const config::Layout layout = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/remus-100.toml");
+  sim::ActuatorValues commands = sim::ActuatorValues::neutral(layout);
+  commands.thrusters[0] = 900;
+  for (std::size_t i = 0; i < commands.surfaces_rad.size(); ++i)
+    commands.surfaces_rad[i] = layout.surfaces[i].limit_rad * (i % 2 == 0 ? 0.5 : -0.25);
+  const std::vector<double> pulses = sim::pulses_of(layout, commands);
+  RecordedMotion motion;
+  motion.duration_s = 10;
+  for (std::size_t i = 0; i < pulses.size(); ++i)
+    motion.signals["output" + std::to_string(i + 1)] = {{0, 1}, {pulses[i], pulses[i]}, true};
+  const ActuatorInputs inputs(layout, motion);
+  EXPECT_TRUE(inputs.missing().empty());
+  EXPECT_TRUE(inputs.follow_commands());
+  ASSERT_EQ(inputs.oddities(layout).size(), 1U);
+  EXPECT_NE(inputs.oddities(layout)[0].find("in its order"), std::string::npos);
+  sim::ActuatorValues found = sim::ActuatorValues::neutral(layout);
+  inputs.trajectory(layout).at(9, found);
+  EXPECT_NEAR(found.thrusters[0], 900, 2);
+  for (std::size_t i = 0; i < commands.surfaces_rad.size(); ++i)
+    EXPECT_NEAR(found.surfaces_rad[i], commands.surfaces_rad[i], 0.002) << i;
+
+  // An output more, and which one moves what is not known.
+  motion.signals["output" + std::to_string(pulses.size() + 1)] = {{0, 1}, {1500, 1500}, true};
+  EXPECT_FALSE(ActuatorInputs(layout, motion).missing().empty());
 }
 
 }  // namespace
