@@ -191,17 +191,21 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
     change += cut_off;
     at = recording.within(at + prior.in_each(cut_off));
   };
-  const auto finished = [&] {
-    if (best) {
-      const Likelihood changes = prior.of_changes(best->linear);
-      const Eigen::VectorXd farther = change_of(changes, {}) - best_from.change;
-      best->is_settled = farther.dot(changes.information * farther) / 2 < kClass_nats;
-      best->change = best_from.change;
-    }
-    return std::move(best);
-  };
   double damping = 1;
   const auto prior_here = [&] { return log_prior_of_departures(at, prior, change) + log_prior_of(change); };
+  // Goes where a likelihood leads, beyond the bounds of tolerances as well.
+  const auto step = [&](const Likelihood& guide, const JointPrior& near, const Anchor& anchor) {
+    change = change_of(near.of_changes(guide), anchor);
+    const Eigen::VectorXd everywhere = prior.in_each(change);
+    at = near.posterior_mean(guide.about(everywhere)) + everywhere;
+  };
+  const auto finished = [&] {
+    if (!best) return std::move(best);
+    best->change = best_from.change;
+    step(best->linear, prior, {});
+    best->promised_nats = std::max(0.0, best->linear.about(at).value + prior_here() - most);
+    return std::move(best);
+  };
   confine();
   for (int round = 0; round < kMostSettlings; ++round) {
     auto fit = recording.fit(at);
@@ -222,9 +226,7 @@ std::optional<RecordingFit> settled(const RecordingModel& recording, const Joint
       const Anchor anchor{best_from.change, 1 - 1 / factor};
       JointPrior near = prior;
       near.mean += anchor.share * (best_from.at - prior.in_each(best_from.change) - prior.mean);
-      change = change_of(near.of_changes(guide), anchor);
-      const Eigen::VectorXd everywhere = prior.in_each(change);
-      at = near.posterior_mean(guide.about(everywhere)) + everywhere;
+      step(guide, near, anchor);
       confine();
       const auto likelihood = recording.log_likelihood(at);
       is_better = likelihood && *likelihood + prior_here() >= most;
@@ -267,7 +269,9 @@ class Search {
   const CauseLibrary& library_;
   /// At the prior's mean, and settled without a cause; nullopt: with these gains it could not have moved so.
   std::optional<RecordingFit> first_, nominal_;
-  double none_ = 0;  ///< evidence of no cause, or where it does not settle, of the prior's mean alone
+  /// Evidence of no cause, with what it promises: nobody is blamed for that. Of the prior's mean where there is
+  /// none.
+  double none_ = 0;
   Scores scores_;
   std::map<CauseSet, RecordingFit> fits_;  ///< with the present gains
   std::map<CauseSet, Departures> begins_;  ///< from where sets are fitted, where that is known
@@ -351,7 +355,7 @@ void Search::fit_again(const CauseSet& set) {
     scores_.set(set, none_ - kImpossible_nats, true);
     return;
   }
-  const double score = SetEvidence(prior_.of_changes(there->linear), library_)(set);
+  const double score = SetEvidence(prior_.of_changes(there->linear), library_)(set) - there->promised_nats;
   scores_.set(set, score, true);
   const SetEvidence guided(prior_.of_changes(there->guide()), library_);
   const double guided_gain = guided.gain(set);
@@ -411,10 +415,9 @@ CauseSearchResult Search::result() && {
   result.none = {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
   if (nominal_) result.none = nominal_->linear;
   result.sets = scores_.ranked();
-  // What only leads far from where it was linearised does not lead.
+  // What was not fitted does not lead.
   const auto erased = std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
-    const auto fit = fits_.find(one.causes);
-    leads = leads && (fit == fits_.end() ? !is_fitted(one.causes) : !fit->second.is_settled);
+    leads = leads && !is_fitted(one.causes);
     return leads;
   });
   const double rest = std::accumulate(result.sets.begin(), result.sets.end(), 0.0,

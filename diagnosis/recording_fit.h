@@ -74,8 +74,9 @@ struct RecordingFit {
   double mean_square = 1;  ///< of the white innovations there
   /// Of the nominal vehicle, in all recordings, as settled() found it.
   Eigen::VectorXd change = {};
-  /// False: it was given up while its likelihood still put the causes far from `at`.
-  bool is_settled = true;
+  /// Log probability that the likelihood promises elsewhere, nats: more where it was given up before it settled,
+  /// or where the promise was not kept because the recording is not linear. It is no evidence.
+  double promised_nats = 0;
 
   /// Innovations that are far above their noise are not linear over the way to where they would be explained. With
   /// noise that is larger by this factor, departures stay within their tolerances, and what explains most comes
