@@ -259,7 +259,7 @@ class Search {
   bool hold_at_switch();
   /// Settles the departures without a cause, from some on.
   void fit_none(Eigen::VectorXd from);
-  /// Where a search for the departures with these causes begins.
+  /// Begin of the search for the departures with these causes.
   [[nodiscard]] Departures begin_of(const CauseSet& set) const;
   [[nodiscard]] double likelihood_at(const Eigen::VectorXd& at) const;
   void fit_again(const CauseSet& set);
@@ -415,7 +415,7 @@ CauseSearchResult Search::result() && {
   result.none = {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
   if (nominal_) result.none = nominal_->linear;
   result.sets = scores_.ranked();
-  // What was not fitted does not lead.
+  // A set without a fit of its own does not lead.
   const auto erased = std::erase_if(result.sets, [&, leads = true](const ScoredSet& one) mutable {
     leads = leads && !is_fitted(one.causes);
     return leads;

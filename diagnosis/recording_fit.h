@@ -72,7 +72,7 @@ struct RecordingFit {
   Likelihood linear;
   Eigen::VectorXd at;      ///< where it was linearised
   double mean_square = 1;  ///< of the white innovations there
-  /// Of the nominal vehicle, in all recordings, as settled() found it.
+  /// The nominal vehicle's change in all recordings, as settled() found it.
   Eigen::VectorXd change = {};
   /// Log probability that the likelihood promises elsewhere, nats: more where it was given up before it settled,
   /// or where the promise was not kept because the recording is not linear. It is no evidence.

@@ -7,7 +7,7 @@
 
 namespace navcal::sim {
 
-/// What the pulses mean that a servo or speed controller takes, in us. A thruster that is commanded in us has its
+/// Meaning of the pulses that a servo or speed controller takes, in us. A thruster that is commanded in us has its
 /// command; of any other actuator 1500 us are neutral, 1900 the upper limit of the command and 1100 the lower one,
 /// with straight lines between them. A limit at neutral leaves nothing on its side.
 struct PulseRange {
@@ -17,7 +17,7 @@ struct PulseRange {
   /// Beyond the limits as well.
   [[nodiscard]] double command(double pulse_us) const;
 };
-/// Of all actuators: thrusters, surfaces, ballasts, moving masses, each in the order of the layout.
+/// The ranges of all actuators: thrusters, surfaces, ballasts, moving masses, each in the order of the layout.
 [[nodiscard]] std::vector<PulseRange> pulse_ranges(const config::Layout& layout);
 
 /// Commands of all actuators as pulses, in the order of their ranges. Whole us, as they are sent.
