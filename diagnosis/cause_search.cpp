@@ -257,7 +257,7 @@ class Search {
   /// An actuator that is dead or reversed is as far as that from the nominal vehicle, and each of them has another
   /// filter. Holds the gains of the one that follows best, where it follows far better. False: none does.
   bool hold_at_switch();
-  /// Settles the departures without a cause, from some on.
+  /// Settles the departures without a cause, from some on; else those before stay.
   void fit_none(Eigen::VectorXd from);
   /// Begin of the search for the departures with these causes.
   [[nodiscard]] Departures begin_of(const CauseSet& set) const;
@@ -314,8 +314,12 @@ bool Search::hold_at_switch() {
 
 void Search::fit_none(Eigen::VectorXd from) {
   const Eigen::VectorXd no_change = Eigen::VectorXd::Zero(library_.columns());
-  nominal_ = settled(recording_, prior_, {std::move(from), no_change}, [&](const auto&...) { return no_change; });
-  if (nominal_) none_ = prior_.of_changes(nominal_->linear).evidence();
+  auto there =
+      settled(recording_, prior_, {std::move(from), no_change}, [&](const auto&...) { return no_change; });
+  if (there) {
+    nominal_ = std::move(there);
+    none_ = prior_.of_changes(nominal_->linear).evidence();
+  }
   scores_.set({}, none_, true);
 }
 
@@ -425,6 +429,7 @@ CauseSearchResult Search::result() && {
   for (ScoredSet& one : result.sets)
     if (erased > 0 && rest > 0) one.probability /= rest;
   const CauseSet& best = result.sets.front().causes;
+  if (best.empty() && !nominal_) throw cannot_follow(recording_.recording());
   result.best = best.empty() ? std::move(*nominal_) : std::move(fits_.at(best));
   result.changes = prior_.of_changes(result.best.linear);
   return result;

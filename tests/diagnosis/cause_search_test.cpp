@@ -250,11 +250,12 @@ TEST(SearchCauses, ASetThatOnlyPromisesWhereItWasNotLinearisedDoesNotLead) {
 }
 
 /// A vehicle that a switch explains, as only a filter says whose gains are of the switched vehicle. The others
-/// leave any departures as improbable.
+/// leave any departures as improbable. With those gains, the nominal vehicle could not have moved so.
 class Switched final : public RecordingModel {
  public:
   [[nodiscard]] std::optional<RecordingFit> fit(const Eigen::VectorXd& at) const override {
     const double apart = at[1] - 1;
+    if (is_held_ && apart < -0.5) return std::nullopt;
     Likelihood here{Eigen::MatrixXd::Zero(at.size(), at.size()), Eigen::VectorXd::Zero(at.size()), -1e5, 0};
     if (is_held_) {
       here.information(1, 1) = 1e4;
