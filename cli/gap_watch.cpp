@@ -210,12 +210,11 @@ std::unique_ptr<gap::WindowSource> source_of(const GapWatchOptions& options, con
   };
   if (auto* const layout = std::get_if<config::Layout>(&vehicle)) {
     auto windows = std::make_unique<diagnosis::LayoutWindows>(
-        diagnosis::LayoutWatchRequest{std::move(*layout),
-                                      {options.nominals.begin(), options.nominals.end()},
-                                      settings,
-                                      given_field(options),
-                                      0,
-                                      base::Interruptible::interrupted},
+        diagnosis::LayoutWatchRequest{.layout = std::move(*layout),
+                                      .nominals = {options.nominals.begin(), options.nominals.end()},
+                                      .settings = settings,
+                                      .field_uT = given_field(options),
+                                      .is_ended = base::Interruptible::interrupted},
         show);
     settings = windows->settings();
     return windows;

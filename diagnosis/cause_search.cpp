@@ -253,7 +253,6 @@ class Search {
 
  private:
   [[nodiscard]] bool is_fitted(const CauseSet& set) const { return scores_.is_fitted(set); }
-  [[nodiscard]] bool is_astray() const { return first_ && first_->mean_square > kAstrayPower; }
   /// An actuator that is dead or reversed is as far as that from the nominal vehicle, and each of them has another
   /// filter. Holds the gains of the one that follows best, where it follows far better. False: none does.
   bool hold_at_switch();
@@ -280,7 +279,7 @@ class Search {
 Search::Search(RecordingModel& recording, const JointPrior& prior, const CauseLibrary& library)
     : recording_(recording), prior_(prior), library_(library), first_(recording.fit(prior.mean)) {
   if (first_) none_ = first_->linear.about(prior.mean).value;
-  const bool is_switched = is_astray() && hold_at_switch();
+  const bool is_switched = first_ && first_->is_astray() && hold_at_switch();
   // Causes are looked for where the nominal vehicle is: its tolerances, fitted to a gap, lead astray.
   fit_none(prior.mean);
   if (!nominal_ && !is_switched) throw cannot_follow(recording.recording());
@@ -296,7 +295,6 @@ Search::Search(RecordingModel& recording, const JointPrior& prior, const CauseLi
 }
 
 bool Search::hold_at_switch() {
-  constexpr double kFarBetter = 10;
   double least = first_->mean_square / kFarBetter;
   for (std::size_t i = 0; i < library_.causes.size(); ++i) {
     const CauseParameter& parameter = library_.causes[i].parameters.front();
@@ -355,7 +353,7 @@ void Search::fit_again(const CauseSet& set) {
       },
       [&](const Eigen::VectorXd& change) { return log_prior_of(change, set, library_); });
   if (!there) {
-    // With these effects the vehicle could not have moved as it did.
+    // The vehicle could not have moved so with these effects.
     scores_.set(set, none_ - kImpossible_nats, true);
     return;
   }
@@ -402,7 +400,7 @@ void Search::fit_in_place() {
 bool Search::hold_at_best() {
   const auto ranked = scores_.ranked();
   const auto best = fits_.find(ranked.front().causes);
-  if (!is_astray() || best == fits_.end() || !recording_.hold(best->second.at)) return false;
+  if (!first_->is_astray() || best == fits_.end() || !recording_.hold(best->second.at)) return false;
   begins_.clear();
   for (const auto& [set, fit] : std::exchange(fits_, {})) begins_.emplace(set, Departures{fit.at, fit.change});
   scores_ = {};

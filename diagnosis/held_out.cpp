@@ -38,7 +38,7 @@ ExplainedRecording held_out(RecordingModel& recording, const JointPrior& prior, 
       recording.power(recording.own_departures(prior, none->linear)).value_or(RecordingPower{});
   // As the search does behind a gap that leads astray.
   const auto first = recording.fit(prior.mean);
-  if (first && first->mean_square > kAstrayPower && recording.hold(prior.mean + change))
+  if (first && first->is_astray() && recording.hold(prior.mean + change))
     none = changed_by(Eigen::VectorXd::Zero(library.columns()));
   const auto with = changed_by(change);
   // A vehicle with these effects could not have moved as this one did.

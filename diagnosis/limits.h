@@ -41,7 +41,8 @@ inline constexpr std::size_t kRefitted = 4, kReconsidered = 4;
 inline constexpr double kLinearPower = 2;
 /// Mean square above which the nominal vehicle's filter is led astray: its errors are ten times what it expects,
 /// so it is linear about states that never were.
-inline constexpr double kAstrayPower = 100;
+/// The filter of a dead or reversed actuator's vehicle serves instead where it leaves so many times less.
+inline constexpr double kAstrayPower = 100, kFarBetter = 10;
 /// A set with which the vehicle could not have moved as it did is so far behind.
 inline constexpr double kImpossible_nats = 1e6;
 /// A recording has settled where its evidence changes by less, and is given up after so many passes.

@@ -46,6 +46,8 @@ Likelihood Likelihood::tempered(double factor) const {
 
 double RecordingFit::damping() const { return std::max(1.0, mean_square / kLinearPower); }
 
+bool RecordingFit::is_astray() const { return mean_square > kAstrayPower; }
+
 Likelihood RecordingFit::guide() const { return linear.tempered(damping()); }
 
 Likelihood Likelihood::of(const std::vector<Eigen::Index>& columns) const {

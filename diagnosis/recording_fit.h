@@ -82,6 +82,8 @@ struct RecordingFit {
   /// noise that is larger by this factor, departures stay within their tolerances, and what explains most comes
   /// first (as in Levenberg 1944 and Marquardt 1963, with the prior as their metric).
   [[nodiscard]] double damping() const;
+  /// The filter that the recording was linearised about expects far smaller innovations: its gains serve no other.
+  [[nodiscard]] bool is_astray() const;
   /// The likelihood that says where to go from the nominal vehicle.
   [[nodiscard]] Likelihood guide() const;
 };

@@ -23,8 +23,8 @@ namespace navcal::report {
 /// "at rest: 0 to 120 s, 181 to 3600 s (59 min 0 s)", or why nothing is.
 [[nodiscard]] std::string rest_sentence(const analysis::NoiseReport& report);
 
-/// What a table does not say: correlation, rounding, lines, why there is no noise, and which recording a missing
-/// term would need.
+/// Remarks that a table does not hold: correlation, rounding, lines, why there is no noise, and which recording a
+/// missing term would need.
 [[nodiscard]] std::vector<std::string> noise_remarks(const analysis::RecordedChannel& recorded);
 
 /// Cells of a row: name, unit, readings, rate, resolution, noise of a reading, white noise, bias instability,

@@ -40,7 +40,7 @@ struct HeadingError {
 };
 [[nodiscard]] HeadingError heading_error(const FieldCorrection& found, const EllipseShape& truth);
 
-/// Of an estimator that is told the thesis's noise.
+/// An estimator with these is told the thesis's noise.
 [[nodiscard]] EllipseEstimator::Parameters ellipse_parameters();
 
 /// Root-mean-square error of heading over the circle by the Cramer-Rao bound, every heading free, degrees.

@@ -152,11 +152,9 @@ bool is_position(const RecordedMotion& motion, const std::string& signal) {
 }
 
 ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator, std::vector<std::string> wanted,
-                                               const std::string& channel, const sim::PulseRange& range) {
-  const std::size_t place = ++actuators_;
+                                               const std::string& by_place, const sim::PulseRange& range) {
   const std::size_t usual = wanted.size();
-  if (has_each_output_ && channel.empty() && std::ranges::count(wanted, output_name(place)) == 0)
-    wanted.push_back(output_name(place));
+  if (!by_place.empty() && std::ranges::count(wanted, by_place) == 0) wanted.push_back(by_place);
   for (const std::string& name : wanted) {
     const auto found = motion_.signals.find(name);
     if (found == motion_.signals.end() || found->second.empty()) continue;
@@ -182,27 +180,31 @@ ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator, std:
 
 ActuatorInputs::ActuatorInputs(const config::Layout& layout, const RecordedMotion& motion) : motion_(motion) {
   const std::vector<sim::PulseRange> ranges = sim::pulse_ranges(layout);
-  has_each_output_ = !motion.signals.contains(output_name(ranges.size() + 1));
+  bool has_each_output = !motion.signals.contains(output_name(ranges.size() + 1));
   for (std::size_t place = 1; place <= ranges.size(); ++place)
-    has_each_output_ = has_each_output_ && motion.signals.contains(output_name(place));
-  auto range = ranges.begin();
+    has_each_output = has_each_output && motion.signals.contains(output_name(place));
+  std::size_t place = 0;
+  const auto next = [&](const std::string& actuator, std::vector<std::string> wanted, const std::string& channel) {
+    ++place;
+    const std::string by_place = has_each_output && channel.empty() ? output_name(place) : "";
+    return input_of(actuator, std::move(wanted), by_place, ranges[place - 1]);
+  };
   for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
     const config::LayoutThruster& of = layout.thrusters[i];
-    thrusters_.push_back(input_of("thruster " + of.name, signals_of_thruster(layout, i), of.channel, *range++));
+    thrusters_.push_back(next("thruster " + of.name, signals_of_thruster(layout, i), of.channel));
   }
   for (std::size_t i = 0; i < layout.surfaces.size(); ++i) {
     const config::LayoutSurface& of = layout.surfaces[i];
-    surfaces_.push_back(input_of("surface " + of.name, signals_of_surface(layout, i), of.channel, *range++));
+    surfaces_.push_back(next("surface " + of.name, signals_of_surface(layout, i), of.channel));
   }
   const auto of_channel = [&](const std::string& channel, const char* usual) {
     if (channel.empty() && motion.signals.count(usual) == 0) return std::vector<std::string>{};
     return std::vector<std::string>{channel.empty() ? usual : channel};
   };
   for (const auto& of : layout.ballasts)
-    ballasts_.push_back(input_of("ballast " + of.name, of_channel(of.channel, "ballast"), of.channel, *range++));
+    ballasts_.push_back(next("ballast " + of.name, of_channel(of.channel, "ballast"), of.channel));
   for (const auto& of : layout.moving_masses)
-    masses_.push_back(
-        input_of("moving mass " + of.name, of_channel(of.channel, "moving_mass"), of.channel, *range++));
+    masses_.push_back(next("moving mass " + of.name, of_channel(of.channel, "moving_mass"), of.channel));
 }
 
 template <class Is>

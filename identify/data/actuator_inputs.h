@@ -79,12 +79,12 @@ class ActuatorInputs {
   /// Whether a predicate holds for any input that has its signal.
   template <class Is>
   [[nodiscard]] bool has_any(Is is) const;
+  /// `by_place`: the output that moves it where none of the wanted signals is there; empty: none does.
   [[nodiscard]] Input input_of(const std::string& actuator, std::vector<std::string> wanted,
-                               const std::string& channel, const sim::PulseRange& range);
+                               const std::string& by_place, const sim::PulseRange& range);
 
   const RecordedMotion& motion_;
-  bool has_each_output_ = false, are_by_place_ = false;  ///< outputs, for each actuator; used for some
-  std::size_t actuators_ = 0;                            ///< that have their input
+  bool are_by_place_ = false;  ///< actuators that an output moves by its place
   std::vector<Input> thrusters_, surfaces_, ballasts_, masses_;
   std::vector<std::string> missing_;
 };

@@ -14,7 +14,7 @@ struct PulseRange {
   double low, neutral, high;  ///< commands
   bool is_pulse = false;      ///< a command is a pulse
 
-  /// Beyond the limits as well.
+  /// Not bounded by the limits.
   [[nodiscard]] double command(double pulse_us) const;
 };
 /// The ranges of all actuators: thrusters, surfaces, ballasts, moving masses, each in the order of the layout.

@@ -64,7 +64,7 @@ TEST(ActuatorInputs, TheShippedGliderFollowsBallastAndMovingMass) {
   EXPECT_EQ(still.ballasts_N.at(0), 0);
 }
 
-// What navcal simulate records of a layout with a propeller in rpm and fins: it could not be diagnosed.
+// A layout with a propeller in rpm and fins could not be diagnosed on what navcal simulate records of it.
 TEST(ActuatorInputs, OutputsOfAllActuatorsAreTheirCommandsInTheOrderOfTheLayout) {
   const config::Layout layout = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/remus-100.toml");
   sim::ActuatorValues commands = sim::ActuatorValues::neutral(layout);
