@@ -109,9 +109,10 @@ std::optional<std::array<double, 2>> dead_reckoning_m_per_100m(const std::vector
 
 /// Writes the sentence of an explained gap, and the manoeuvres that separate its effects from others.
 void write_explained(Diagnosis& answer) {
+  std::vector<std::string> names;
+  for (const EffectFinding& effect : answer.effects) names.push_back(effect.name);
   answer.sentence =
-      fmt::format("{} {} the gap (probability {:.2f})",
-                  fmt::join(answer.effects | std::views::transform(&EffectFinding::name), " and "),
+      fmt::format("{} {} the gap (probability {:.2f})", fmt::join(names, " and "),
                   answer.effects.size() == 1 ? "explains" : "explain", answer.effects.back().probability);
   if (answer.gap.pooled.closed) {
     answer.sentence += fmt::format(": {:.0f} % of it goes away{}.", 100 * std::min(1.0, *answer.gap.pooled.closed),
@@ -133,7 +134,9 @@ void write_explained(Diagnosis& answer) {
 }
 
 std::string words_of(const Alternative& alternative, std::string_view between = " and ") {
-  return fmt::format("{}", fmt::join(alternative.effects | std::views::transform(&EffectFinding::words), between));
+  std::vector<std::string> words;
+  for (const auto& effect : alternative.effects) words.push_back(effect.words());
+  return fmt::format("{}", fmt::join(words, between));
 }
 
 /// Manoeuvres of the effects that only one of two sets holds.

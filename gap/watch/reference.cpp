@@ -119,14 +119,17 @@ constexpr std::size_t kMapWindows = 20;
 ReferenceWindows::ReferenceWindows(ReferenceRequest request, const std::function<void(double)>& progress)
     : request_(std::move(request)), problem_{request_.vehicle, request_.library, bank_.whitening, priors_,
                                              watched_columns(request_.library)} {
-  const auto& [vehicle, library, instruments, field, folder, options] = request_;
+  const auto& vehicle = request_.vehicle;
+  const auto& library = request_.library;
+  const BankOptions& options = request_.bank;
   const config::Mission mission = reference_mission(vehicle);
   const PlannedPath path = planned_path(vehicle, mission, sim::EffectSet(), kLongest_s);
-  const Mission readings = planned_readings(vehicle, mission, {instruments, field}, path.duration_s);
+  const Mission readings =
+      planned_readings(vehicle, mission, {request_.instruments, request_.field}, path.duration_s);
   const Replay replay(readings, vehicle);
   Trajectory10Hz course;
   (void)replay.run(Model{}, &course);
-  const BankCache cache(folder, vehicle, library);
+  const BankCache cache(request_.cache, vehicle, library);
   if (auto kept = cache.find(replay, course, options)) {
     bank_ = std::move(*kept);
   } else {
