@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "calib/magnetometer/ellipse_chain.h"
+#include "calib/magnetometer/ellipse_judgement.h"
 #include "calib/magnetometer/field_cells.h"
 
 namespace navcal::calib {
