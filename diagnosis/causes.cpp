@@ -71,6 +71,83 @@ const std::vector<InstrumentError>& instrument_errors() {
   return kAll;
 }
 
+/// Errors of the magnetometers; what a heading alone shows of them is `compass_deviation`.
+constexpr std::array<std::string_view, 3> kFieldErrors{"hard_iron", "soft_iron", "compass_misalignment"};
+
+/// Errors as the simulator has them, which follow from the motion at their instant, and the channels of which one
+/// must be there.
+struct SimulatedError {
+  std::string_view name;
+  std::vector<Channel> needs;
+};
+
+const std::vector<SimulatedError>& simulated_errors() {
+  using enum Channel;
+  static const std::vector<SimulatedError> kAll{{"hard_iron", {heading}},
+                                                {"soft_iron", {heading}},
+                                                {"compass_misalignment", {heading}},
+                                                {"tilt_slosh", {roll, pitch}},
+                                                {"gyro_cross_axis", {rate_x, rate_y, rate_z}},
+                                                {"gyro_g_sensitivity", {rate_x, rate_y, rate_z}},
+                                                {"gyro_nonlinearity", {rate_x, rate_y, rate_z}}};
+  return kAll;
+}
+
+/// Whether one of some channels was recorded.
+bool has_any(const RecordedMotion& recording, const std::vector<Channel>& of) {
+  return std::ranges::any_of(of, [&](Channel channel) { return recording.has(channel); });
+}
+
+/// The gyro of a parameter, by its name, where it is one of a gyro: "scale_ax", "by_from_z".
+std::optional<Channel> gyro_of(std::string_view parameter) {
+  using enum Channel;
+  constexpr std::array<std::pair<std::string_view, Channel>, 4> kGyros{
+      {{"ax", rate_x}, {"by", rate_y}, {"az", rate_z}, {"bz", second_yaw_rate}}};
+  for (const auto& [name, channel] : kGyros) {
+    if (parameter.starts_with(name) || parameter.ends_with(name)) return channel;
+  }
+  return std::nullopt;
+}
+
+void add_simulated_errors(const RecordedMotion& recording, const std::set<std::string, std::less<>>& excluded,
+                          CauseLibrary& library) {
+  for (const SimulatedError& error : simulated_errors()) {
+    const bool is_of_field = std::ranges::find(kFieldErrors, error.name) != kFieldErrors.end();
+    if (excluded.contains(error.name) || (is_of_field && recording.field_uT <= 0)) continue;
+    if (!has_any(recording, error.needs)) {
+      library.not_judged.push_back(std::string(error.name) + " was not judged: the recording has no " +
+                                   std::string(identify::describe(error.needs.front()).name));
+      continue;
+    }
+    const sim::EffectDescription& about = sim::make_effect(error.name)->description();
+    Cause cause{.name = std::string(error.name),
+                .of = {},
+                .manoeuvre = std::string(about.manoeuvre.text()),
+                .parameters = {},
+                .is_instrument = true};
+    for (std::size_t i = 0; i < about.parameters.size(); ++i) {
+      const sim::EffectParameter& parameter = about.parameters[i];
+      const auto gyro = error.needs.front() == Channel::rate_x ? gyro_of(parameter.name) : std::nullopt;
+      if (gyro && !recording.has(*gyro)) continue;
+      cause.parameters.push_back({.name = std::string(parameter.name),
+                                  .typical = parameter.typical,
+                                  .low = -kLargestStrength * parameter.typical,
+                                  .high = kLargestStrength * parameter.typical,
+                                  .column = static_cast<Eigen::Index>(library.parameters.size())});
+      library.parameters.push_back({.name = cause.name + " " + std::string(parameter.name),
+                                    .unit = {},
+                                    .prior = 0,
+                                    .prior_std = kUsualTolerance * parameter.typical,
+                                    .low = parameter.least,
+                                    .high = parameter.greatest,
+                                    .key = {},
+                                    .elements = {},
+                                    .of_instruments = {{error.name, i}}});
+    }
+    library.causes.push_back(std::move(cause));
+  }
+}
+
 void add_effects(const config::Layout& layout, const std::set<std::string, std::less<>>& excluded,
                  CauseLibrary& library) {
   for (const sim::LayoutEffectDescription& about : sim::layout_effects()) {
@@ -119,10 +196,11 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
   const auto first = static_cast<Eigen::Index>(library.parameters.size());
   for (const InstrumentError& error : instrument_errors()) {
     if (excluded.contains(error.name)) continue;
-    const bool exists =
-        error.needs.empty() || std::any_of(error.needs.begin(), error.needs.end(),
-                                           [&](Channel channel) { return recording.has(channel); });
-    if (!exists) {
+    if (error.name == "compass_deviation" && recording.field_uT > 0 && !excluded.contains("hard_iron")) {
+      for (const auto& [name, nuisance] : error.parameters) library.replaced.push_back(nuisance);
+      continue;
+    }
+    if (!error.needs.empty() && !has_any(recording, error.needs)) {
       library.not_judged.push_back(std::string(error.name) + " was not judged: the recording has no " +
                                    std::string(identify::describe(error.needs.front()).name));
       continue;
@@ -167,8 +245,8 @@ Eigen::Index CauseLibrary::columns() const {
 CauseLibrary causes_of(const config::Layout& layout, const RecordedMotion& recording,
                        std::span<const std::string> excluded) {
   for (const std::string& name : excluded) {
-    const bool is_instrument = std::any_of(instrument_errors().begin(), instrument_errors().end(),
-                                           [&](const InstrumentError& error) { return error.name == name; });
+    const bool is_instrument =
+        std::ranges::find(instrument_errors(), name, &InstrumentError::name) != instrument_errors().end();
     // An effect that no layout can be diagnosed with is left out already.
     if (!is_instrument && sim::find_layout_effect(name) == nullptr && !sim::make_effect(name))
       throw std::invalid_argument(name + " is no effect of a layout (navcal simulate --list-effects)");
@@ -178,6 +256,7 @@ CauseLibrary causes_of(const config::Layout& layout, const RecordedMotion& recor
   library.parameters = identify::uncertain_parameters(layout);
   library.layout_numbers = library.parameters.size();
   add_effects(layout, left_out, library);
+  add_simulated_errors(recording, left_out, library);
   add_instrument_errors(recording, left_out, library);
   return library;
 }

@@ -9,6 +9,7 @@
 #include "config/layout.h"
 #include "identify/data/recorded_motion.h"
 #include "identify/parameters.h"
+#include "identify/replay/calibration.h"
 
 namespace navcal::diagnosis {
 
@@ -48,10 +49,11 @@ struct Cause {
 struct CauseLibrary {
   std::vector<Cause> causes;
   /// Numbers of the layout that are uncertain by its file (they stand for its tolerances), then the parameters of
-  /// all effects with a prior about zero.
+  /// all effects on the layout and on the instruments, with a prior about zero.
   std::vector<identify::Parameter> parameters;
-  std::size_t layout_numbers = 0;       ///< the first so many of `parameters`
-  std::vector<std::string> not_judged;  ///< why an instrument's errors are no candidates here, for people
+  std::size_t layout_numbers = 0;            ///< the first so many of `parameters`
+  std::vector<identify::Nuisance> replaced;  ///< by a cause that says the same in other terms
+  std::vector<std::string> not_judged;       ///< why an instrument's errors are no candidates here, for people
 
   [[nodiscard]] Eigen::Index columns() const;
 };

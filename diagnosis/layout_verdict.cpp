@@ -378,8 +378,11 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   if (!has_floor) return say_unconfirmed(answer);
   const bool is_left_over = !louder.empty() || is_loud, is_certain = !answer.effects.empty();
   const std::string explained_by = is_certain ? names_of(answer.effects) : "the best set of effects";
+  const auto closed_ci = held_out.empty() ? std::nullopt : answer.gap.pooled.closed_ci;
   if (!is_certain && (!is_left_over || kind == gap::UnknownKind::outside)) {
     reason = not_named.front();
+  } else if (is_certain && closed_ci && (*closed_ci)[1] < 0) {
+    reason = fmt::format("with {} the held-out recordings depart farther", explained_by);
   } else if (!louder.empty()) {
     reason = fmt::format("{} leaves {} louder than nominal", explained_by, louder.front().channel);
   } else if (is_loud) {

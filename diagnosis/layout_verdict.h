@@ -31,7 +31,7 @@ struct LayoutEvidence {
   double before = 0;  ///< noise power of the recording without causes
 };
 
-/// Writes verdict, sentence, effects, candidates and what stays unexplained (docs/gap.md, "Vehicles with a
+/// Closes `answer`, whose figures of the gap are those of the best set: writes verdict, sentence, effects, candidates and what stays unexplained (docs/gap.md, "Vehicles with a
 /// layout"). Without a gap it removes the entries of `where`.
 void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer);
 

@@ -108,6 +108,8 @@ ColumnScatter scatter_of(const CauseLibrary& library, const identify::Calibratio
   for (std::size_t i = 0; i < library.layout_numbers; ++i)
     scatter.vehicle[static_cast<Eigen::Index>(i)] = library.parameters[i].prior_std;
   scatter.session.tail<kNuisances>() = nuisance_stds;
+  for (const identify::Nuisance nuisance : library.replaced)
+    scatter.session[columns - kNuisances + static_cast<Eigen::Index>(nuisance)] = kAbsent;
   for (const Cause& cause : library.causes) {
     for (const CauseParameter& parameter : cause.parameters)
       if (parameter.is_one_sided()) scatter.session[parameter.column] = kAbsent;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/failure.h"
+#include "config/complaints.h"
 #include "emulation/simulate_run.h"
 #include "protocols/decimal.h"
 #include "sim/effects/choice.h"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "fleet/merge.h"
 #include "fleet/plan_report.h"
 #include "report/html_page.h"
 

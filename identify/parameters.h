@@ -4,13 +4,21 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/layout.h"
 
 namespace navcal::identify {
+
+/// A parameter of an effect on the instruments (sim/effects/library), by its place in the effect's description.
+struct InstrumentNumber {
+  std::string_view effect;
+  std::size_t parameter;
+};
 
 /// One uncertain number of a layout: what its file states a standard error or a range of. The prior is normal,
 /// with the file's value as its mean. A range [low, high] without a standard error counts as a uniform
@@ -25,7 +33,9 @@ struct Parameter {
   /// Changes the layout by a value in another way than by its numbers (an effect); the key is then empty.
   std::function<void(config::Layout&, double)> change = {};
   bool is_of_actuator = false;  ///< such a change
-  double step = 0;              ///< of a finite difference; 0: a small part of the prior's standard deviation
+  /// An error of the instruments in place of a number of the layout; the key is then empty.
+  std::optional<InstrumentNumber> of_instruments = {};
+  double step = 0;  ///< of a finite difference; 0: a small part of the prior's standard deviation
 };
 
 /// All uncertain numbers, in the order of the file. A standard error of zero means that a number is exact.

@@ -104,7 +104,7 @@ class MotionGatherer final : public pipeline::Sink {
   std::int64_t last_fix_ns_ = 0;
   int fix_number_ = 0;
   bool fins_are_reported_ = false;
-  double field_level_uT_ = 0, field_down_uT_ = 0;  ///< sums
+  double field_level_uT_ = 0, field_down_uT_ = 0, fields_ = 0;  ///< sums, and their number
 };
 
 void MotionGatherer::add(const instruments::ImuSample& sample) {
@@ -136,6 +136,7 @@ void MotionGatherer::add(const instruments::CompassSample& sample) {
   const double sp = std::sin(*sample.pitch_rad), cp = std::cos(*sample.pitch_rad);
   field_level_uT_ += std::hypot(x * cp + y * sr * sp + z * cr * sp, y * cr - z * sr);
   field_down_uT_ += -x * sp + y * sr * cp + z * cr * cp;
+  ++fields_;
 }
 
 void MotionGatherer::add(const instruments::GpsSample& sample) {
@@ -242,7 +243,10 @@ RecordedMotion MotionGatherer::take(std::int64_t begin_ns) {
     }
   }
   motion.fins_are_reported = fins_are_reported_;
-  if (motion.tilt_lag_s > 0 && field_level_uT_ > 0) motion.dip_rad = std::atan2(field_down_uT_, field_level_uT_);
+  if (fields_ > 0) {
+    motion.dip_rad = std::atan2(field_down_uT_, field_level_uT_);
+    motion.field_uT = std::hypot(field_down_uT_, field_level_uT_) / fields_;
+  }
   motion.gyro_turn_on_rad_s = model_.imu.turn_on_bias_rad_s;
   motion.heading_is_true = heading_is_true_;
   if (field_.field().declination_source != pipeline::EarthField::Source::none)
@@ -256,6 +260,7 @@ void set_field(RecordedMotion& motion, const std::array<double, 3>& field_uT) {
   const auto [north, east, down] = field_uT;
   motion.declination_rad = std::atan2(east, north);
   motion.dip_rad = std::atan2(down, std::hypot(north, east));
+  motion.field_uT = std::hypot(north, east, down);
   motion.declination_is_stated = true;
 }
 

@@ -52,7 +52,8 @@ struct RecordedMotion {
   Eigen::Vector3d imu_place_m = Eigen::Vector3d::Zero(), gauge_place_m = Eigen::Vector3d::Zero(),
                   doppler_place_m = Eigen::Vector3d::Zero(), antenna_place_m = Eigen::Vector3d::Zero();
   double tilt_lag_s = 0;                  ///< first-order lag of roll and pitch
-  double dip_rad = 0;                     ///< of the Earth's field, by the compass; only with a lag
+  double dip_rad = 0;                     ///< of the Earth's field, by the compass
+  double field_uT = 0;                    ///< its strength in the same way; 0: not known
   double gyro_turn_on_rad_s = 0;          ///< standard deviation of the bias at power-on
   bool heading_is_true = false;           ///< as the device states it; else magnetic
   bool declination_is_stated = false;     ///< by the user

@@ -14,7 +14,7 @@ namespace {
 /// has none, and a filter that does not know the speed would take what it does to the accelerometers for a tilt.
 /// (Statistical linearisation: Gelb 1974, Applied Optimal Estimation, section 6.2.)
 double difference_for(double std) { return std::max(1e-5, std); }
-constexpr Eigen::Index kEuler = 3, kVelocity = 6, kTilt = 12;
+constexpr Eigen::Index kEuler = 3, kVelocity = 6;
 
 bool is_force(Channel channel) { return channel >= Channel::force_x && channel <= Channel::force_z; }
 
@@ -44,9 +44,9 @@ Eigen::Matrix<double, kStates, columns> motion(const StepDerivatives& by, double
 }  // namespace
 
 FilterModel::FilterModel(const sim::LayoutVehicle& vehicle, std::shared_ptr<const ActuatorTrajectory> actuators,
-                         const RecordedMotion& recorded, const Calibration& calibration)
-    : vehicle_(vehicle), actuators_(std::move(actuators)), calibration_(calibration), instruments_(recorded),
-      tilt_lag_s_(recorded.tilt_lag_s) {}
+                         const RecordedMotion& recorded, const Calibration& calibration, InstrumentErrors errors)
+    : vehicle_(vehicle), actuators_(std::move(actuators)), calibration_(calibration), errors_(std::move(errors)),
+      instruments_(recorded, errors_), tilt_lag_s_(recorded.tilt_lag_s) {}
 
 std::array<sim::ActuatorValues, 3> FilterModel::actuators_over(double time_s, double step_s) const {
   const double from_s = time_s - get(calibration_, Nuisance::actuator_delay);
@@ -81,6 +81,17 @@ FilterModel::Acceleration FilterModel::acceleration_over(const FilterState& from
   return {(first + 4 * middle + last) / 6, first - last, last};
 }
 
+Eigen::Vector2d FilterModel::tilt_beyond(const FilterModel& other, const FilterState& from, const FilterState& to,
+                                         const Acceleration& over, double step_s) const {
+  const auto beyond = [&](const FilterState& state, const sim::Vector6& acceleration) {
+    const sim::Body body = point_of(state.head<kStates>()).body;
+    const sim::Vector6 disturbed = acceleration + state.tail<6>();
+    return Eigen::Vector2d(errors_.felt_tilt(body, disturbed) - other.errors_.felt_tilt(body, disturbed));
+  };
+  return lagged_tilt(Eigen::Vector2d::Zero(), beyond(from, over.end + over.fall), beyond(to, over.end),
+                     tilt_lag_s_, step_s);
+}
+
 bool FilterModel::is_driven_as(const FilterModel& other) const {
   return &vehicle_ == &other.vehicle_ && actuators_ == other.actuators_ &&
          get(calibration_, Nuisance::actuator_delay) == get(other.calibration_, Nuisance::actuator_delay);
@@ -89,6 +100,11 @@ bool FilterModel::is_driven_as(const FilterModel& other) const {
 bool FilterModel::feels_forces(Channel channel) const {
   return is_force(channel) ||
          (channel <= Channel::water_z && describe(channel).unit.ends_with("/s") && age_of(channel) != 0);
+}
+
+bool FilterModel::is_prompt() const {
+  constexpr auto kFirst = static_cast<Eigen::Index>(Nuisance::imu_delay);
+  return calibration_.segment<static_cast<Eigen::Index>(Nuisance::actuator_delay) - kFirst>(kFirst).isZero(0);
 }
 
 double FilterModel::age_of(Channel channel) const {
@@ -126,10 +142,17 @@ FilterState FilterModel::after(const FilterState& state, const Moved& moved, dou
   body = vehicle_.moved_step(body, moved.begin, moved.middle, moved.end, step_s).body;
   body.velocity += kick;
   body.position_m += step_s * current();
+  Eigen::Vector2d felt_before = state.segment<2>(kEuler), felt = body.euler_rad.head<2>();
+  if (errors_.has_felt_tilt()) {
+    const auto beyond = [&](const sim::Body& at, const sim::LayoutVehicle::Held& held) {
+      return errors_.felt_tilt(at, vehicle_.acceleration(at, held) + state.tail<6>());
+    };
+    felt_before += beyond(point_of(state.head<kStates>()).body, moved.begin);
+    felt += beyond(body, moved.end);
+  }
   FilterState end;
   end << body.position_m, body.euler_rad, body.velocity,
-      lagged_tilt(state.segment<2>(kTilt), state.segment<2>(kEuler), body.euler_rad.head<2>(), tilt_lag_s_,
-                  step_s),
+      lagged_tilt(state.segment<2>(kTilt), felt_before, felt, tilt_lag_s_, step_s),
       std::exp(-step_s / tau_s) * state.tail<6>();
   return end;
 }
@@ -175,27 +198,34 @@ FilterMatrix Transition::on_both_sides_of(const FilterMatrix& covariance) const 
 
 void FilterModel::predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
                           std::span<const ChannelReading> readings, double* out) const {
-  const auto accelerate = [&](MotionPoint& point) {
-    point.acceleration = vehicle_.acceleration(point.body, *held) + state.tail<6>();
-  };
   MotionPoint now = point_of(state.head<kStates>());
-  if (held != nullptr) accelerate(now);
+  if (held != nullptr) now.acceleration = vehicle_.acceleration(now.body, *held) + state.tail<6>();
+  predict(now, state, held, readings, out);
+}
+
+void FilterModel::predict(const MotionPoint& now, const FilterState& state, const sim::LayoutVehicle::Held* held,
+                          std::span<const ChannelReading> readings, double* out) const {
   for (std::size_t first = 0, end = 0; first < readings.size(); first = end) {
     const double age_s = age_of(readings[first].channel);
     bool is_felt = false;
     for (; end < readings.size() && age_of(readings[end].channel) == age_s; ++end)
       is_felt = is_felt || is_force(readings[end].channel);
     MotionPoint then = age_s == 0 ? now : before(now, age_s);
-    if (age_s != 0 && is_felt) accelerate(then);
+    if (age_s != 0 && is_felt) then.acceleration = vehicle_.acceleration(then.body, *held) + state.tail<6>();
     instruments_.at(then, Eigen::Vector3d::Zero(), readings.subspan(first, end - first), calibration_,
                     out + first);
   }
 }
 
 void FilterModel::innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
-                              double* out) const {
-  const auto held = held_for(readings, time_s);
-  predict(state, held.get(), readings, out);
+                              double* out, const sim::Vector6* acceleration) const {
+  if (acceleration != nullptr) {
+    MotionPoint now = point_of(state.head<kStates>());
+    now.acceleration = *acceleration + state.tail<6>();
+    predict(now, state, nullptr, readings, out);
+  } else {
+    predict(state, held_for(readings, time_s).get(), readings, out);
+  }
   for (std::size_t i = 0; i < readings.size(); ++i) out[i] = difference_of(readings[i], readings[i].value, out[i]);
 }
 

@@ -17,6 +17,7 @@ namespace navcal::identify {
 /// State of the filter: StateVector, then the six accelerations of the disturbance d in body axes. SI. Here the
 /// position is in the world: it contains what the water carries.
 inline constexpr Eigen::Index kFilterStates = kStates + 6;
+inline constexpr Eigen::Index kTilt = 12;  ///< of roll, as the tilt sensor feels it; pitch follows
 using FilterState = Eigen::Matrix<double, kFilterStates, 1>;
 using FilterMatrix = Eigen::Matrix<double, kFilterStates, kFilterStates>;
 
@@ -29,7 +30,7 @@ class FilterModel {
  public:
   /// `vehicle` and `recorded` must outlive it.
   FilterModel(const sim::LayoutVehicle& vehicle, std::shared_ptr<const ActuatorTrajectory> actuators,
-              const RecordedMotion& recorded, const Calibration& calibration);
+              const RecordedMotion& recorded, const Calibration& calibration, InstrumentErrors errors = {});
 
   /// Actuators at a step's begin, middle and end. Simpson's mean of them is that of the step: what the middle is
   /// not where a command jumps.
@@ -51,20 +52,30 @@ class FilterModel {
   /// `begin`: nu' at the begin; nullptr: computed.
   [[nodiscard]] Acceleration acceleration_over(const FilterState& from, const FilterState& to, double time_s,
                                                double step_s, const sim::Vector6* begin) const;
+  /// Tilt at the end of a step beyond that of `other`, as far as their tilt sensors' fluids feel another tilt over
+  /// it.
+  [[nodiscard]] Eigen::Vector2d tilt_beyond(const FilterModel& other, const FilterState& from,
+                                            const FilterState& to, const Acceleration& over, double step_s) const;
   /// Whether the same vehicle is under the same actuators at the same times.
   [[nodiscard]] bool is_driven_as(const FilterModel& other) const;
   /// Whether a channel's readings depend on the acceleration: an accelerometer's, and a velocity's that is late.
   [[nodiscard]] bool feels_forces(Channel channel) const;
+  [[nodiscard]] bool feels_tilt_as(const FilterModel& other) const { return errors_.feels_tilt_as(other.errors_); }
   [[nodiscard]] Eigen::Vector3d current() const { return current_of(calibration_); }
-  /// Readings less predictions at one instant, angles wrapped, to `out`.
-  void innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings,
-                   double* out) const;
+  /// Whether no instrument's readings are late.
+  [[nodiscard]] bool is_prompt() const;
+  /// Readings less predictions at one instant, angles wrapped, to `out`. `acceleration`: nu' without the
+  /// disturbance where it is known and is_prompt(), or nullptr.
+  void innovations(const FilterState& state, double time_s, std::span<const ChannelReading> readings, double* out,
+                   const sim::Vector6* acceleration = nullptr) const;
   /// Derivatives of the predictions by the state in the same way, one column for each reading.
   void sensitivities(const FilterState& state, const FilterState& stds, double time_s,
                      std::span<const ChannelReading> readings, std::span<FilterState> out) const;
 
  private:
   void predict(const FilterState& state, const sim::LayoutVehicle::Held* held,
+               std::span<const ChannelReading> readings, double* out) const;
+  void predict(const MotionPoint& now, const FilterState& state, const sim::LayoutVehicle::Held* held,
                std::span<const ChannelReading> readings, double* out) const;
   /// Begin, middle and end of a step.
   [[nodiscard]] std::array<sim::ActuatorValues, 3> actuators_over(double time_s, double step_s) const;
@@ -78,6 +89,7 @@ class FilterModel {
   const sim::LayoutVehicle& vehicle_;
   std::shared_ptr<const ActuatorTrajectory> actuators_;
   Calibration calibration_;
+  InstrumentErrors errors_;
   PredictedReadings instruments_;
   double tilt_lag_s_;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "identify/replay/motion_point.h"
@@ -27,6 +28,20 @@ FilterState first_stds() {
   FilterState all;
   all << 30, 30, 5, 0.3, 0.3, 0.5, 1, 1, 1, 0.5, 0.5, 0.5, 0.3, 0.3, sim::Vector6::Zero();
   return all;
+}
+
+/// Errors of the instruments by values, which begin with those of the parameters.
+InstrumentErrors errors_of(std::span<const Parameter> parameters, const Eigen::VectorXd& values) {
+  std::map<std::string_view, std::vector<double>> by_effect;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& number = parameters[i].of_instruments;
+    const double value = values[static_cast<Eigen::Index>(i)];
+    if (!number || value == 0) continue;
+    std::vector<double>& all = by_effect[number->effect];
+    all.resize(std::max(all.size(), number->parameter + 1));
+    all[number->parameter] = value;
+  }
+  return InstrumentErrors(by_effect);
 }
 
 FilterState growth_of(const FilterNoises& noises, double step_s) {
@@ -118,24 +133,37 @@ FilteredReplay::FilteredReplay(config::Layout layout, std::vector<Parameter> par
   if (readings_.empty() || readings_.back().time_s - begin_s < kSettling_s + kEvidence_s)
     throw std::invalid_argument(fmt::format("{}: {:.1f} s with readings; at least {:.0f} s are needed",
                                             recorded.name, recorded.duration_s, kUnjudged_s + kEvidence_s));
+  find_shown();
+}
+
+void FilteredReplay::find_shown() {
   // At a point where everything is at work.
   std::vector<ChannelReading> one_each;
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (!recorded.channels[c].empty()) one_each.push_back({static_cast<Channel>(c), 1, 0, 1});
+    if (!recorded_.channels[c].empty()) one_each.push_back({static_cast<Channel>(c), 1, 0, 1});
   }
   MotionPoint point = point_of(StateVector::LinSpaced(0.1, 0.3));
   point.acceleration.setConstant(0.2);
-  const auto predicted = [&](const Calibration& with) {
+  const auto predicted = [&](const Eigen::VectorXd& values) {
+    const Calibration with = values.tail<kNuisances>();
     Eigen::VectorXd all(std::ssize(one_each));
-    PredictedReadings(recorded).at(point, current_of(with), one_each, with, all.data());
+    PredictedReadings(recorded_, errors_of(parameters_, values))
+        .at(point, current_of(with), one_each, with, all.data());
     return all;
   };
-  for (Eigen::Index i = 0; i < kNuisances; ++i) {
-    const Eigen::VectorXd moved = predicted(0.01 * Calibration::Unit(i)) - predicted(Calibration::Zero());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(std::ssize(parameters_) + kNuisances);
+  const Eigen::VectorXd perfect = predicted(none);
+  shown_in_.assign(static_cast<std::size_t>(none.size()), {});
+  for (std::size_t i = 0; i < shown_in_.size(); ++i) {
+    const bool is_nuisance = i >= parameters_.size();
+    if (!is_nuisance && !parameters_[i].of_instruments) continue;
+    Eigen::VectorXd values = none;
+    values[static_cast<Eigen::Index>(i)] = is_nuisance ? 0.01 : parameters_[i].prior_std;
+    const Eigen::VectorXd moved = predicted(values) - perfect;
     for (std::size_t r = 0; r < one_each.size(); ++r) {
       const Channel channel = one_each[r].channel;
-      shown_in_[static_cast<std::size_t>(i)][static_cast<std::size_t>(channel)] =
-          moved[static_cast<Eigen::Index>(r)] != 0 || delay_of(channel) == static_cast<Nuisance>(i);
+      const bool is_age = is_nuisance && delay_of(channel) == static_cast<Nuisance>(i - parameters_.size());
+      shown_in_[i][static_cast<std::size_t>(channel)] = moved[static_cast<Eigen::Index>(r)] != 0 || is_age;
     }
   }
 }
@@ -205,7 +233,7 @@ FilteredReplay::Driven FilteredReplay::driven_by(const Eigen::VectorXd& values) 
 }
 
 FilterModel FilteredReplay::model_of(const Driven& driven, const Eigen::VectorXd& values) const {
-  return {driven.vehicle, driven.actuators, recorded_, values.tail<kNuisances>()};
+  return {driven.vehicle, driven.actuators, recorded_, values.tail<kNuisances>(), errors_of(parameters_, values)};
 }
 
 FilterState FilteredReplay::measured(double time_s) const {

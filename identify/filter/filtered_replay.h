@@ -132,6 +132,8 @@ class FilteredReplay {
   };
   [[nodiscard]] Driven driven_by(const Eigen::VectorXd& values) const;
   [[nodiscard]] FilterModel model_of(const Driven& driven, const Eigen::VectorXd& values) const;
+  /// Finds which channels each of the values shows in by itself.
+  void find_shown();
   [[nodiscard]] FilterState measured(double time_s) const;
   [[nodiscard]] std::span<const ChannelReading> readings_of(const Step& step) const {
     return {readings_.data() + step.first, step.count};
@@ -154,7 +156,7 @@ class FilteredReplay {
   using Channels = std::bitset<kChannels>;
   /// Channels of the recording whose readings depend on a nuisance in other ways than by the motion.
   [[nodiscard]] const Channels& shown_in(Nuisance nuisance) const {
-    return shown_in_[static_cast<std::size_t>(nuisance)];
+    return shown_in_[parameters_.size() + static_cast<std::size_t>(nuisance)];
   }
   /// A course of a model, about which it is linearised, and what all columns share.
   struct About {
@@ -162,6 +164,7 @@ class FilteredReplay {
     const FilterModel& model;
     Course course;
     std::vector<FilterModel::Acceleration> accelerations;
+    std::vector<double> by_accelerations;    ///< the innovations with those at the ends of the steps
     std::vector<Transition> transitions;     ///< of the steps; of no meaning where the filter starts anew
     std::vector<FilterState> sensitivities;  ///< of the readings' predictions
   };
@@ -179,8 +182,8 @@ class FilteredReplay {
   ActuatorInputs inputs_;
   std::vector<ChannelReading> readings_;
   std::vector<Step> steps_;
-  std::vector<double> broken_s_;  ///< ends of what was left out
-  std::array<Channels, static_cast<std::size_t>(kNuisances)> shown_in_;
+  std::vector<double> broken_s_;    ///< ends of what was left out
+  std::vector<Channels> shown_in_;  ///< of each of the values; numbers of the layout show in none by themselves
 };
 
 }  // namespace navcal::identify

@@ -2,6 +2,7 @@
 // FilteredReplay::linearise().
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/parallel.h"
 #include "identify/filter/filtered_replay.h"
@@ -35,8 +36,13 @@ Eigen::VectorXd FilteredReplay::slope(const About& about, const FilterModel& mov
   const Eigen::Vector3d carried = (moved.current() - about.model.current()) / by;
   const auto by_moved =
       moved.is_driven_as(about.model) ? std::vector<FilterModel::Acceleration>{} : accelerations(course, moved);
+  const bool has_same_forces = by_moved.empty() && moved.is_prompt() && about.model.is_prompt();
+  const bool feels_as_before = moved.feels_tilt_as(about.model);
   Eigen::VectorXd white = Eigen::VectorXd::Zero(course.white.size());
-  std::vector<double> innovations = course.innovations;
+  // Another clock of the step's end may be on the other side of a command: each is compared with its like.
+  const std::vector<double>& nominal = has_same_forces ? about.by_accelerations : course.innovations;
+  std::vector<double> innovations = nominal, numbers;
+  std::vector<ChannelReading> shown;
   FilterState apart = FilterState::Zero();  // of the two vehicles, over `by`
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
@@ -55,16 +61,30 @@ Eigen::VectorXd FilteredReplay::slope(const About& about, const FilterModel& mov
         apart += kick + grown / 2 - (transition * less - less) / 12;
       }
       apart.head<3>() += step.length_s * carried;
+      if (!feels_as_before)
+        apart.segment<2>(kTilt) += moved.tilt_beyond(about.model, course.begins[k], course.ends[k],
+                                                     about.accelerations[k], step.length_s) /
+                                   by;
     }
     const auto readings = readings_of(step);
-    if (std::ranges::any_of(readings, [&](const ChannelReading& reading) {
-          return shown_in[static_cast<std::size_t>(reading.channel)];
-        }))
+    const auto is_shown = [&](const ChannelReading& reading) {
+      return shown_in[static_cast<std::size_t>(reading.channel)];
+    };
+    if (has_same_forces && !step.starts_anew) {
+      shown.clear();
+      std::ranges::copy_if(readings, std::back_inserter(shown), is_shown);
+      numbers.resize(shown.size());
+      if (!shown.empty())
+        moved.innovations(course.ends[k], step.time_s, shown, numbers.data(), &about.accelerations[k].end);
+      for (std::size_t i = 0, next = 0; i < readings.size(); ++i)
+        if (is_shown(readings[i])) innovations[step.first + i] = numbers[next++];
+    } else if (std::ranges::any_of(readings, is_shown)) {
       moved.innovations(course.ends[k], step.time_s, readings, innovations.data() + step.first);
+    }
     FilterState correction = FilterState::Zero();
     for (std::size_t i = step.first; i < step.first + step.count; ++i) {
       const FilterPass::Reading& held = about.pass.readings[i];
-      const double innovation = (innovations[i] - course.innovations[i]) / by - about.sensitivities[i].dot(apart) -
+      const double innovation = (innovations[i] - nominal[i]) / by - about.sensitivities[i].dot(apart) -
                                 held.sensitivity.dot(correction);
       if (!held.is_settling) white[static_cast<Eigen::Index>(i)] = innovation / std::sqrt(held.variance);
       correction += held.gain * innovation;
@@ -94,11 +114,17 @@ std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass
                                                           std::span<const Eigen::Index> columns) const {
   const Driven nominal = driven_by(at_values);
   const FilterModel model = model_of(nominal, at_values);
-  About about{pass, model, replayed(pass, model), {}, {}, {}};
+  About about{pass, model, replayed(pass, model), {}, {}, {}, {}};
   if (about.course.white.size() == 0) return std::nullopt;
   FilterLinearised out{{}, about.course.white, about.course.white.squaredNorm(), pass.log_det()};
   if (columns.empty()) return out;
   about.accelerations = accelerations(about.course, model);
+  about.by_accelerations = about.course.innovations;
+  for (std::size_t k = 0; k < steps_.size() && model.is_prompt(); ++k) {
+    if (const Step& step = steps_[k]; !step.starts_anew)
+      model.innovations(about.course.ends[k], step.time_s, readings_of(step),
+                        about.by_accelerations.data() + step.first, &about.accelerations[k].end);
+  }
   for (const FilterPass::Reading& reading : pass.readings) about.sensitivities.push_back(reading.sensitivity);
   std::vector<StepDerivatives> own;
   if (at_values != pass.values) own = take_derivatives(about);
@@ -125,6 +151,13 @@ std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass
       return;
     }
     const Parameter& parameter = parameters_[static_cast<std::size_t>(at)];
+    if (parameter.of_instruments) {
+      const double step = kColumnPart * parameter.prior_std;
+      Eigen::VectorXd values = at_values;
+      values[at] += step;
+      column = slope(about, model_of(nominal, values), shown_in_[static_cast<std::size_t>(at)], step);
+      return;
+    }
     const auto slope_over = [&](double step) {
       Eigen::VectorXd values = at_values;
       values[at] += step;

@@ -10,16 +10,6 @@
 namespace navcal::identify {
 namespace {
 
-/// Heading of a compass that levels its field by a tilt of its own.
-double levelled_heading(const Eigen::Vector3d& euler_rad, const Eigen::Vector2d& tilt_rad, double dip_rad) {
-  const Eigen::Vector3d field =
-      world_from_body(euler_rad).transpose() * Eigen::Vector3d(std::cos(dip_rad), 0, std::sin(dip_rad));
-  const double sr = std::sin(tilt_rad.x()), cr = std::cos(tilt_rad.x());
-  const double sp = std::sin(tilt_rad.y()), cp = std::cos(tilt_rad.y());
-  return std::atan2(-(field.y() * cr - field.z() * sr),
-                    field.x() * cp + field.y() * sr * sp + field.z() * cr * sp);
-}
-
 double component(Channel channel, Channel first, const Eigen::Vector3d& vector) {
   return vector[static_cast<Eigen::Index>(channel) - static_cast<Eigen::Index>(first)];
 }
@@ -43,6 +33,8 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
   const Eigen::Vector3d antenna_m =
       recorded_.antenna_place_m + Eigen::Vector3d(value(Nuisance::antenna_x), value(Nuisance::antenna_y), 0);
   const double depth_per_m = 1 + value(Nuisance::depth_scale);
+  const Eigen::Vector3d force = specific_force(point, R.row(2).transpose(), recorded_.imu_place_m);
+  const std::array<double, 4> rate_errors = errors_.of_rates(body, force);
   const auto predict = [&](Channel channel, double time_s) -> double {
     switch (channel) {
       case Channel::rate_x:
@@ -50,21 +42,18 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
       case Channel::rate_z: {
         const Eigen::Vector3d turned = omega - imu_turn.cross(omega);
         const Eigen::Vector3d all = turned + vector(Nuisance::rate_scale_x).cwiseProduct(turned);
-        return component(channel, Channel::rate_x,
+        return rate_errors[static_cast<std::size_t>(channel)] +
+               component(channel, Channel::rate_x,
                          all + vector(Nuisance::rate_bias_x) + time_s * vector(Nuisance::rate_drift_x));
       }
       case Channel::second_yaw_rate: {
         const Eigen::Vector3d turned = omega - imu_turn.cross(omega);
-        return (1 + value(Nuisance::second_yaw_rate_scale)) * turned.z() + value(Nuisance::second_yaw_rate_bias);
+        return (1 + value(Nuisance::second_yaw_rate_scale)) * turned.z() + value(Nuisance::second_yaw_rate_bias) +
+               rate_errors.back();
       }
       case Channel::force_x:
       case Channel::force_y:
       case Channel::force_z: {
-        const Eigen::Vector3d& r = recorded_.imu_place_m;
-        const Eigen::Vector3d angular = point.acceleration.tail<3>();
-        const Eigen::Vector3d force = Eigen::Vector3d(point.acceleration.head<3>()) + omega.cross(v) +
-                                      angular.cross(r) + omega.cross(omega.cross(r)) -
-                                      base::kGravity_m_s2 * R.row(2).transpose();
         const Eigen::Vector3d turned = force - imu_turn.cross(force);
         const Eigen::Vector3d all = turned + vector(Nuisance::force_scale_x).cwiseProduct(turned);
         return component(channel, Channel::force_x, all + vector(Nuisance::force_bias_x));
@@ -74,10 +63,14 @@ void PredictedReadings::at(const MotionPoint& point, const Eigen::Vector3d& carr
       case Channel::heading: {
         Eigen::Vector3d euler_rad = body.euler_rad;
         euler_rad.z() += value(Nuisance::heading_offset);
-        const double heading =
-            recorded_.tilt_lag_s <= 0
-                ? euler_rad.z()
-                : levelled_heading(euler_rad, point.tilt_rad, recorded_.dip_rad + value(Nuisance::dip));
+        double heading = euler_rad.z();
+        // A device that tilts without a lag levels the field exactly.
+        if (recorded_.tilt_lag_s > 0 || !errors_.empty()) {
+          Eigen::Vector3d field = field_in_body(euler_rad, recorded_.dip_rad + value(Nuisance::dip));
+          if (recorded_.field_uT > 0) field = errors_.shown_field(recorded_.field_uT * field);
+          heading = levelled_heading(
+              field, recorded_.tilt_lag_s > 0 ? point.tilt_rad : Eigen::Vector2d(euler_rad.head<2>()));
+        }
         return heading + value(Nuisance::heading_sine) * std::sin(heading) +
                value(Nuisance::heading_cosine) * std::cos(heading);
       }

@@ -7,6 +7,7 @@
 
 #include "identify/data/recorded_motion.h"
 #include "identify/replay/calibration.h"
+#include "identify/replay/instrument_errors.h"
 #include "identify/replay/motion_point.h"
 
 namespace navcal::identify {
@@ -26,10 +27,12 @@ struct ChannelReading {
 ///   depth     (1 + scale) z of the instrument's place + offset
 ///   Doppler   (1 + scale) Rz(turn)^T (v + omega x r [+ R^T c over the bottom])
 ///   fixes     position + R r + c t; R (v + omega x r) + c
+/// Rates and the field have the errors of `errors` besides; the tilt of a point is as it is felt.
 /// Delays are the caller's: each instrument is asked at the motion of the time it measured.
 class PredictedReadings {
  public:
-  explicit PredictedReadings(const RecordedMotion& recorded) : recorded_(recorded) {}
+  explicit PredictedReadings(const RecordedMotion& recorded, InstrumentErrors errors = {})
+      : recorded_(recorded), errors_(std::move(errors)) {}
 
   /// One number for each reading to `out`; `carried_m` is the distance that the water has carried the vehicle (c t
   /// above).
@@ -38,6 +41,7 @@ class PredictedReadings {
 
  private:
   const RecordedMotion& recorded_;
+  InstrumentErrors errors_;
 };
 
 }  // namespace navcal::identify

@@ -146,6 +146,36 @@ TEST(Causes, EveryEffectOfEveryPartIsOneCause) {
   }
 }
 
+TEST(Causes, WhatMagnetometersCanHaveReplacesTheDeviationOfTheHeadingWhereTheFieldIsKnown) {
+  const auto of = identify::vehicle_case("micro");
+  identify::RecordedMotion recording;
+  recording.channels[static_cast<std::size_t>(identify::Channel::heading)] = {{0, 0, 1}};
+  const auto has = [&](std::string_view name, const std::vector<std::string>& excluded = {}) {
+    const CauseLibrary library = causes_of(of.prior, recording, excluded);
+    EXPECT_EQ(library.replaced.empty(),
+              std::ranges::find(library.causes, "compass_deviation", &Cause::name) != library.causes.end());
+    return std::ranges::find(library.causes, name, &Cause::name) != library.causes.end();
+  };
+  EXPECT_TRUE(has("compass_deviation"));
+  EXPECT_FALSE(has("hard_iron"));
+  identify::set_field(recording, {18, 2, 44});
+  EXPECT_FALSE(has("compass_deviation"));
+  for (const char* const name : {"hard_iron", "soft_iron", "compass_misalignment"}) EXPECT_TRUE(has(name)) << name;
+  EXPECT_TRUE(has("compass_deviation", {"hard_iron"})) << "it stands for what is left out";
+}
+
+TEST(Causes, AGyroThatIsNotThereHasNoErrors) {
+  const auto of = identify::vehicle_case("micro");
+  identify::RecordedMotion recording;
+  recording.channels[static_cast<std::size_t>(identify::Channel::rate_z)] = {{0, 0, 1}};
+  const CauseLibrary library = causes_of(of.prior, recording, {});
+  const auto of_gyros = std::ranges::find(library.causes, "gyro_cross_axis", &Cause::name);
+  ASSERT_NE(of_gyros, library.causes.end());
+  ASSERT_EQ(of_gyros->parameters.size(), 2U);
+  for (const CauseParameter& parameter : of_gyros->parameters)
+    EXPECT_TRUE(parameter.name.starts_with("az")) << parameter.name;
+}
+
 TEST(Causes, AnExcludedEffectIsNowhereAndAnUnknownNameIsRefused) {
   const auto of = identify::vehicle_case("rov");
   const std::vector<std::string> excluded{"thrust_scale"};

@@ -2,6 +2,10 @@
 // Diagnoses of a small vehicle with four thrusters; more whole ones are among the nightly tests.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 #include "tests/diagnosis/micro_case.h"
 
 namespace navcal::diagnosis {
@@ -59,6 +63,63 @@ TEST(DiagnoseLayout, ALateCompassIsNamed) {
   ASSERT_EQ(answer.effects.size(), 1U);
   EXPECT_EQ(answer.effects[0].name, "compass_lag");
   EXPECT_NEAR(answer.effects[0].parameters.at(0).value, 0.2, 0.03);
+}
+
+/// Diagnoses a vehicle without a gap whose recordings, nominal ones apart, were changed afterwards.
+gap::Diagnosis diagnosis_of_changed(const identify::VehicleCase& of,
+                                    const std::function<void(identify::RecordedMotion&)>& change) {
+  const auto recorded = [&](std::uint64_t seed, bool is_changed) {
+    identify::RecordedMotion motion = recording(of, of.prior, seed);
+    identify::set_field(motion, {18, 2, 44});
+    if (is_changed) change(motion);
+    return motion;
+  };
+  return diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
+                  {recorded(1, true), {}, {recorded(11, false), recorded(31, false)}, {recorded(21, true)}},
+                  [](std::string_view, double) {});
+}
+
+// A third of the instruments' errors that others planted were no candidates.
+TEST(DiagnoseLayout, GyrosThatFeelOtherAxesAreNamed) {
+  const auto of = micro();
+  const gap::Diagnosis answer = diagnosis_of_changed(of, [](identify::RecordedMotion& motion) {
+    const auto rates = [&](identify::Channel channel) -> auto& {
+      return motion.channels[static_cast<std::size_t>(channel)];
+    };
+    for (std::size_t i = 0; i < rates(identify::Channel::rate_x).size(); ++i) {
+      const double pitch_rate = rates(identify::Channel::rate_y)[i].value;
+      rates(identify::Channel::rate_x)[i].value += 0.1 * rates(identify::Channel::rate_z)[i].value;
+      rates(identify::Channel::rate_z)[i].value -= 0.1 * pitch_rate;
+    }
+  });
+  ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
+  ASSERT_EQ(answer.effects.size(), 1U) << answer.sentence;
+  EXPECT_EQ(answer.effects[0].name, "gyro_cross_axis");
+  for (const auto& [name, truth] : {std::pair{"ax_from_z", 0.1}, {"az_from_y", -0.1}, {"by_from_x", 0.0}}) {
+    const auto& all = answer.effects[0].parameters;
+    const auto found = std::ranges::find(all, name, &gap::EffectParameterEstimate::name);
+    ASSERT_NE(found, all.end()) << name;
+    EXPECT_NEAR(found->value, truth, 4 * found->std_error) << name;
+  }
+  EXPECT_TRUE(std::ranges::none_of(answer.effects[0].parameters, [](const auto& parameter) {
+    return parameter.name.starts_with("bz");
+  })) << "there is no second yaw gyro";
+}
+
+TEST(DiagnoseLayout, HardIronIsNamedInMicroteslaWhereTheFieldIsKnown) {
+  const auto of = micro();
+  const gap::Diagnosis answer = diagnosis_of_changed(of, [](identify::RecordedMotion& motion) {
+    const double level_uT = std::hypot(18.0, 2.0);
+    for (identify::Reading& heading : motion.channels[static_cast<std::size_t>(identify::Channel::heading)])
+      heading.value -= (3 * std::sin(heading.value) - 2 * std::cos(heading.value)) / level_uT;
+  });
+  ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
+  ASSERT_EQ(answer.effects.size(), 1U) << answer.sentence;
+  EXPECT_EQ(answer.effects[0].name, "hard_iron");
+  const auto& [x, y, z] = std::tie(answer.effects[0].parameters.at(0), answer.effects[0].parameters.at(1),
+                                   answer.effects[0].parameters.at(2));
+  EXPECT_NEAR(x.value, 3, 4 * x.std_error);
+  EXPECT_NEAR(y.value, -2, 4 * y.std_error);
 }
 
 TEST(DiagnoseLayout, MissingCommandsAreSaid) {

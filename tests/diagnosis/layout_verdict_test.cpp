@@ -18,6 +18,7 @@ struct Searched {
   CauseSearchResult found;
   RecordingPower after;
   std::vector<ExplainedRecording> held_out;
+  gap::Closure pooled;
 
   Searched() {
     for (Eigen::Index i = 0; i < 2; ++i) {
@@ -40,6 +41,7 @@ struct Searched {
 
   [[nodiscard]] gap::Diagnosis verdict() const {
     gap::Diagnosis answer;
+    answer.gap.pooled = pooled;
     write_verdict({library, bank, found, after, held_out,
                    [](const CauseSet& set) {
                      return gap::Closure{2, 1, 1, set[0] == 0 ? 0.98 : 0.95, {}};
@@ -269,6 +271,16 @@ TEST(LayoutVerdict, ACauseThatMakesAHeldOutRecordingWorseIsNotNamed) {
   searched.held_out.push_back({50, {50}, {}, {}});
   expect_unknown(searched, "-3.0 in the worst one");
   searched.held_out.erase(searched.held_out.begin());
+  EXPECT_EQ(searched.verdict().verdict, gap::Verdict::explained);
+}
+
+// Sensitivities of gyros to forces took up a battery that sagged, and made two held-out recordings louder.
+TEST(LayoutVerdict, ACauseWithWhichHeldOutRecordingsDepartFartherIsNotNamed) {
+  Searched searched;
+  searched.held_out.push_back({50, {50}, {}, {}});
+  searched.pooled.closed_ci = {-0.9, -0.08};
+  expect_unknown(searched, "with first of thruster.1 the held-out recordings depart farther");
+  searched.pooled.closed_ci = {-0.1, 0.3};
   EXPECT_EQ(searched.verdict().verdict, gap::Verdict::explained);
 }
 
