@@ -381,8 +381,8 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const auto closed_ci = held_out.empty() ? std::nullopt : answer.gap.pooled.closed_ci;
   if (!is_certain && (!is_left_over || kind == gap::UnknownKind::outside)) {
     reason = not_named.front();
-  } else if (is_certain && closed_ci && (*closed_ci)[1] < 0) {
-    reason = fmt::format("with {} the held-out recordings depart farther", explained_by);
+  } else if (is_certain && closed_ci && (*closed_ci)[0] <= 0) {
+    reason = fmt::format("with {} the held-out recordings do not depart less", explained_by);
   } else if (!louder.empty()) {
     reason = fmt::format("{} leaves {} louder than nominal", explained_by, louder.front().channel);
   } else if (is_loud) {
