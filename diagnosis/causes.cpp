@@ -32,12 +32,15 @@ constexpr std::array<OwnError, 6> kOwnErrors{{{"imu_misalignment", 2, "pure yaw,
                                               {"dvl_misalignment", 2, "straight legs with fixes"},
                                               {"actuator_delay", 0.1, "fast steps of the commands"}}};
 
-/// An error of instruments that the fit estimates for each recording anyway. Typical strengths and manoeuvres are
-/// those of the simulator's effect of the same name, where there is one.
+/// An error of instruments. Typical strengths and manoeuvres are those of the simulator's effect of the same name,
+/// where there is one.
 struct InstrumentError {
   std::string_view name;
+  /// That the fit estimates for each recording anyway. Empty: those of the simulator's effect, each reading's
+  /// error by the motion at its instant.
   std::vector<std::pair<std::string_view, Nuisance>> parameters;
-  std::vector<Channel> needs;  ///< one of them
+  std::vector<Channel> needs;   ///< one of them
+  bool is_of_field_uT = false;  ///< needs the strength of the field besides
 };
 
 const std::vector<InstrumentError>& instrument_errors() {
@@ -45,7 +48,14 @@ const std::vector<InstrumentError>& instrument_errors() {
   using enum Channel;
   const std::vector<Channel> rates{rate_x, rate_y, rate_z}, forces{force_x, force_y, force_z},
       doppler{bottom_x, water_x};
+  // Those of the simulator stand first: the nuisances follow all parameters of the fit.
   static const std::vector<InstrumentError> kAll{
+      {"hard_iron", {}, {heading}, true},
+      {"soft_iron", {}, {heading}, true},
+      {"compass_misalignment", {}, {heading}, true},
+      {"tilt_slosh", {}, {roll, pitch}},
+      {"gyro_cross_axis", {}, rates},
+      {"gyro_nonlinearity", {}, rates},
       {"gyro_scale", {{"scale_ax", rate_scale_x}, {"scale_by", rate_scale_y}, {"scale_az", rate_scale_z}}, rates},
       {"gyro_drift",
        {{"deg_per_s2_ax", rate_drift_x}, {"deg_per_s2_by", rate_drift_y}, {"deg_per_s2_az", rate_drift_z}},
@@ -71,28 +81,6 @@ const std::vector<InstrumentError>& instrument_errors() {
   return kAll;
 }
 
-/// Errors of the magnetometers; what a heading alone shows of them is `compass_deviation`.
-constexpr std::array<std::string_view, 3> kFieldErrors{"hard_iron", "soft_iron", "compass_misalignment"};
-
-/// Errors as the simulator has them, which follow from the motion at their instant, and the channels of which one
-/// must be there.
-struct SimulatedError {
-  std::string_view name;
-  std::vector<Channel> needs;
-};
-
-const std::vector<SimulatedError>& simulated_errors() {
-  using enum Channel;
-  static const std::vector<SimulatedError> kAll{{"hard_iron", {heading}},
-                                                {"soft_iron", {heading}},
-                                                {"compass_misalignment", {heading}},
-                                                {"tilt_slosh", {roll, pitch}},
-                                                {"gyro_cross_axis", {rate_x, rate_y, rate_z}},
-                                                {"gyro_g_sensitivity", {rate_x, rate_y, rate_z}},
-                                                {"gyro_nonlinearity", {rate_x, rate_y, rate_z}}};
-  return kAll;
-}
-
 /// Whether one of some channels was recorded.
 bool has_any(const RecordedMotion& recording, const std::vector<Channel>& of) {
   return std::ranges::any_of(of, [&](Channel channel) { return recording.has(channel); });
@@ -107,45 +95,6 @@ std::optional<Channel> gyro_of(std::string_view parameter) {
     if (parameter.starts_with(name) || parameter.ends_with(name)) return channel;
   }
   return std::nullopt;
-}
-
-void add_simulated_errors(const RecordedMotion& recording, const std::set<std::string, std::less<>>& excluded,
-                          CauseLibrary& library) {
-  for (const SimulatedError& error : simulated_errors()) {
-    const bool is_of_field = std::ranges::find(kFieldErrors, error.name) != kFieldErrors.end();
-    if (excluded.contains(error.name) || (is_of_field && recording.field_uT <= 0)) continue;
-    if (!has_any(recording, error.needs)) {
-      library.not_judged.push_back(std::string(error.name) + " was not judged: the recording has no " +
-                                   std::string(identify::describe(error.needs.front()).name));
-      continue;
-    }
-    const sim::EffectDescription& about = sim::make_effect(error.name)->description();
-    Cause cause{.name = std::string(error.name),
-                .of = {},
-                .manoeuvre = std::string(about.manoeuvre.text()),
-                .parameters = {},
-                .is_instrument = true};
-    for (std::size_t i = 0; i < about.parameters.size(); ++i) {
-      const sim::EffectParameter& parameter = about.parameters[i];
-      const auto gyro = error.needs.front() == Channel::rate_x ? gyro_of(parameter.name) : std::nullopt;
-      if (gyro && !recording.has(*gyro)) continue;
-      cause.parameters.push_back({.name = std::string(parameter.name),
-                                  .typical = parameter.typical,
-                                  .low = -kLargestStrength * parameter.typical,
-                                  .high = kLargestStrength * parameter.typical,
-                                  .column = static_cast<Eigen::Index>(library.parameters.size())});
-      library.parameters.push_back({.name = cause.name + " " + std::string(parameter.name),
-                                    .unit = {},
-                                    .prior = 0,
-                                    .prior_std = kUsualTolerance * parameter.typical,
-                                    .low = parameter.least,
-                                    .high = parameter.greatest,
-                                    .key = {},
-                                    .elements = {},
-                                    .of_instruments = {{error.name, i}}});
-    }
-    library.causes.push_back(std::move(cause));
-  }
 }
 
 void add_effects(const config::Layout& layout, const std::set<std::string, std::less<>>& excluded,
@@ -191,15 +140,39 @@ void add_effects(const config::Layout& layout, const std::set<std::string, std::
   }
 }
 
+/// Adds the parameters of a simulated error to those of the fit, without those of gyros that are not there.
+void add_simulated(const sim::EffectDescription& about, const RecordedMotion& recording, Cause& cause,
+                   CauseLibrary& library) {
+  for (std::size_t i = 0; i < about.parameters.size(); ++i) {
+    const sim::EffectParameter& parameter = about.parameters[i];
+    const auto gyro = about.name.starts_with("gyro_") ? gyro_of(parameter.name) : std::nullopt;
+    if (gyro && !recording.has(*gyro)) continue;
+    cause.parameters.push_back({.name = std::string(parameter.name),
+                                .typical = parameter.typical,
+                                .low = -kLargestStrength * parameter.typical,
+                                .high = kLargestStrength * parameter.typical,
+                                .column = static_cast<Eigen::Index>(library.parameters.size())});
+    library.parameters.push_back({.name = cause.name + " " + std::string(parameter.name),
+                                  .unit = {},
+                                  .prior = 0,
+                                  .prior_std = kUsualTolerance * parameter.typical,
+                                  .low = parameter.least,
+                                  .high = parameter.greatest,
+                                  .key = {},
+                                  .elements = {},
+                                  .of_instruments = {{about.name, i}}});
+  }
+}
+
 void add_instrument_errors(const RecordedMotion& recording, const std::set<std::string, std::less<>>& excluded,
                            CauseLibrary& library) {
-  const auto first = static_cast<Eigen::Index>(library.parameters.size());
   for (const InstrumentError& error : instrument_errors()) {
-    if (excluded.contains(error.name)) continue;
-    if (error.name == "compass_deviation" && recording.field_uT > 0 && !excluded.contains("hard_iron")) {
-      for (const auto& [name, nuisance] : error.parameters) library.replaced.push_back(nuisance);
+    const bool is_replaced =
+        error.name == "compass_deviation" && recording.field_uT > 0 && !excluded.contains("hard_iron");
+    for (const auto& [name, nuisance] : error.parameters)
+      if (is_replaced) library.replaced.push_back(nuisance);
+    if (excluded.contains(error.name) || is_replaced || (error.is_of_field_uT && recording.field_uT <= 0))
       continue;
-    }
     if (!error.needs.empty() && !has_any(recording, error.needs)) {
       library.not_judged.push_back(std::string(error.name) + " was not judged: the recording has no " +
                                    std::string(identify::describe(error.needs.front()).name));
@@ -212,6 +185,7 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
                 .manoeuvre = std::string(simulated ? simulated->description().manoeuvre.text() : own->manoeuvre),
                 .parameters = {},
                 .is_instrument = true};
+    if (error.parameters.empty()) add_simulated(simulated->description(), recording, cause, library);
     const auto typical_of = [&](std::string_view name) {
       if (!simulated) return own->typical;
       const auto& all = simulated->description().parameters;
@@ -219,12 +193,13 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
     };
     for (const auto& [name, nuisance] : error.parameters) {
       const double typical = typical_of(name);
-      cause.parameters.push_back({.name = std::string(name),
-                                  .typical = typical,
-                                  .per_unit = name.find("deg") == name.npos ? 1 : base::kRadiansPerDegree,
-                                  .low = -kLargestStrength * typical,
-                                  .high = kLargestStrength * typical,
-                                  .column = first + static_cast<Eigen::Index>(nuisance)});
+      cause.parameters.push_back(
+          {.name = std::string(name),
+           .typical = typical,
+           .per_unit = name.find("deg") == name.npos ? 1 : base::kRadiansPerDegree,
+           .low = -kLargestStrength * typical,
+           .high = kLargestStrength * typical,
+           .column = static_cast<Eigen::Index>(library.parameters.size()) + static_cast<Eigen::Index>(nuisance)});
     }
     library.causes.push_back(std::move(cause));
   }
@@ -256,7 +231,6 @@ CauseLibrary causes_of(const config::Layout& layout, const RecordedMotion& recor
   library.parameters = identify::uncertain_parameters(layout);
   library.layout_numbers = library.parameters.size();
   add_effects(layout, left_out, library);
-  add_simulated_errors(recording, left_out, library);
   add_instrument_errors(recording, left_out, library);
   return library;
 }

@@ -16,6 +16,7 @@
 #include "diagnosis/steady_source.h"
 #include "gap/verdict/recordings_apart.h"
 #include "record/seen_recordings.h"
+#include "sim/layout/layout_of.h"
 
 namespace navcal::diagnosis {
 namespace {
@@ -154,6 +155,8 @@ std::vector<const RecordedMotion*> LayoutRecordings::together() const {
   for (const RecordedMotion& other : others) all.push_back(&other);
   return all;
 }
+
+config::Layout layout_of(const config::VehicleSettings& vehicle) { return sim::layout_of(vehicle); }
 
 void find_causes(LayoutStudy& study, const gap::Progress& progress) {
   const LayoutRecordings& recordings = study.recordings;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/layout.h"
+#include "config/vehicle.h"
 #include "diagnosis/cause_search.h"
 #include "diagnosis/nominal_bank.h"
 #include "gap/verdict/request.h"
@@ -50,6 +51,9 @@ struct LayoutStudy {
   std::optional<CauseSearchResult> found;  ///< nullopt: no recording can be judged
   gap::Diagnosis diagnosis;
 };
+
+/// A vehicle file as a layout, to be compared with nominal recordings. Without them its floor is simulated (gap).
+[[nodiscard]] config::Layout layout_of(const config::VehicleSettings& vehicle);
 
 /// Diagnoses the recordings of a study that has its library and source; the bank is made if it has none. Throws
 /// std::invalid_argument in words where a recording cannot be judged.

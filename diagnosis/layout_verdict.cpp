@@ -376,16 +376,19 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     }
   }
   if (!has_floor) return say_unconfirmed(answer);
-  const bool is_left_over = !louder.empty() || is_loud, is_certain = !answer.effects.empty();
+  const auto& closed_ci = answer.gap.pooled.closed_ci;
+  const bool is_certain = !answer.effects.empty();
+  const bool is_louder = !louder.empty() || is_loud;
+  // The model's errors grow with the motion: beside a large gap, what is left of it counts, and not its size.
+  const bool is_left_over = is_louder && !(closed_ci && (*closed_ci)[0] >= gap::kClosedFrom);
   const std::string explained_by = is_certain ? names_of(answer.effects) : "the best set of effects";
-  const auto closed_ci = held_out.empty() ? std::nullopt : answer.gap.pooled.closed_ci;
   if (!is_certain && (!is_left_over || kind == gap::UnknownKind::outside)) {
     reason = not_named.front();
-  } else if (is_certain && closed_ci && (*closed_ci)[0] <= 0) {
+  } else if (is_certain && !held_out.empty() && answer.gap.pooled.closed.value_or(1) <= 0) {
     reason = fmt::format("with {} the held-out recordings do not depart less", explained_by);
-  } else if (!louder.empty()) {
+  } else if (is_left_over && !louder.empty()) {
     reason = fmt::format("{} leaves {} louder than nominal", explained_by, louder.front().channel);
-  } else if (is_loud) {
+  } else if (is_left_over) {
     reason =
         fmt::format("with {} the recording departs by {:.2f} times its noise power, nominal ones by {:.2f} times",
                     explained_by, after.mean_square, floor.mean);
@@ -403,6 +406,11 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   answer.verdict = gap::Verdict::explained;
   answer.sentence = fmt::format("The gap is explained by {}.", names_of(answer.effects));
   for (const std::string& why : not_named) answer.remarks.push_back("not named beside it: " + why);
+  if (is_louder)
+    answer.remarks.push_back(fmt::format(
+        "a small part of the gap is left: with {} the recording departs by {:.2f} times its noise power, "
+        "nominal ones by {:.2f} times",
+        explained_by, after.mean_square, floor.mean));
   if (held_out.empty())
     answer.remarks.emplace_back("no held-out recording was given (--holdout): the answer is weaker");
 }

@@ -31,8 +31,9 @@ struct LayoutEvidence {
   double before = 0;  ///< noise power of the recording without causes
 };
 
-/// Closes `answer`, whose figures of the gap are those of the best set: writes verdict, sentence, effects, candidates and what stays unexplained (docs/gap.md, "Vehicles with a
-/// layout"). Without a gap it removes the entries of `where`.
+/// Closes `answer`, whose figures of the gap are those of the best set: writes verdict, sentence, effects,
+/// candidates and what stays unexplained (docs/gap.md, "Vehicles with a layout"). Without a gap it removes the
+/// entries of `where`.
 void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer);
 
 }  // namespace navcal::diagnosis

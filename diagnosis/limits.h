@@ -27,6 +27,8 @@ inline constexpr std::size_t kNoiseFrom = 2;
 /// Standard deviation of what is usual in vehicles and between recordings, typical strengths, and the number of
 /// observations that it counts as.
 inline constexpr double kUsualTolerance = 0.1, kToleranceWeight = 2;
+/// And the largest: what departs by a typical strength is an effect.
+inline constexpr double kMostTolerance = 1;
 /// Part of the variance between recordings that those which are judged together have in common. They may be of one
 /// session, whose departures do not average out, or of several.
 inline constexpr double kSessionShare = 0.5;

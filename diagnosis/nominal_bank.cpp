@@ -6,11 +6,12 @@
 #include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
-#include "diagnosis/cause_search.h"
 #include "diagnosis/limits.h"
+#include "diagnosis/set_evidence.h"
 
 namespace navcal::diagnosis {
 
@@ -47,6 +48,7 @@ constexpr double kAbsent = 1e-6;
 struct Alike {
   std::vector<Eigen::Index> columns;
   std::vector<double> typical;
+  double most = kMostTolerance;
 };
 
 using AlikeByName = std::map<std::string, Alike>;
@@ -71,6 +73,7 @@ AlikeByName alike_between_recordings(const CauseLibrary& library) {
   for (std::size_t i = 0; i < library.layout_numbers; ++i) {
     std::string name = library.parameters[i].name;
     std::erase_if(name, [](char c) { return c >= '0' && c <= '9'; });
+    by_name[name].most = std::numeric_limits<double>::infinity();
     by_name[name].columns.push_back(static_cast<Eigen::Index>(i));
     by_name[name].typical.push_back(library.parameters[i].prior_std);
   }
@@ -86,7 +89,7 @@ void set_tolerances(const AlikeByName& groups, std::span<const Eigen::VectorXd> 
       for (std::size_t i = 0; i < group.columns.size(); ++i, ++weight)
         sum += one[group.columns[i]] / (group.typical[i] * group.typical[i]);
     }
-    const double tolerance = std::sqrt(sum / weight);
+    const double tolerance = std::min(std::sqrt(sum / weight), group.most);
     for (std::size_t i = 0; i < group.columns.size(); ++i)
       scatter[group.columns[i]] = tolerance * group.typical[i];
   }

