@@ -12,6 +12,7 @@
 #include "analysis/noise/noise_run.h"
 #include "analysis/surfacing_run.h"
 #include "diagnosis/diagnose_layout.h"
+#include "diagnosis/layout_information.h"
 #include "fleet/causes/information_json.h"
 #include "gap/verdict/information.h"
 #include "gap/verdict/request.h"
@@ -108,10 +109,15 @@ std::string gap_answer(const JobInput& input) {
 std::string evidence_answer(const JobInput& input) {
   gap::Request request = request_of(input);
   request.cache_is_read_only = true;
-  const gap::InformationResult result = gap::information_of(request, [](std::string_view, double) {});
+  const gap::Progress silent = [](std::string_view, double) {};
+  if (input.layout) request.bank_missions = gap::Request{}.bank_missions;  // it has none
+  const auto [result, vehicle_error] =
+      input.layout ? diagnosis::information_of(request, *input.layout, input.nominals, silent)
+                   : diagnosis::LayoutInformation{gap::information_of(request, silent), {}};
   JobJson json{{"identity", recording_identity(input.recording)}, {"remarks", result.remarks}};
   if (result.information) {
     json["information"] = information_json(*result.information);
+    json["vehicle_error"] = std::vector<double>(vehicle_error.begin(), vehicle_error.end());
   } else {
     json["information"] = nullptr;
     json["shortcoming"] = result.shortcoming;
@@ -144,11 +150,11 @@ std::string surfacings_answer(const JobInput& input) {
   return text_of(JobJson::parse(report::surfacings_json(run.surfacings(), {})));
 }
 
-constexpr std::array kJobs{
-    Job{"gap", true, true, true, gap_answer}, Job{"calibrate", false, false, true, calibrate_answer},
-    Job{"noise", false, false, true, noise_answer}, Job{"surfacings", false, false, true, surfacings_answer},
-    Job{"evidence", true, true, false, evidence_answer}};
-constexpr Job kBank{kBankJob, true, false, false, bank_answer};
+constexpr std::array kJobs{Job{"gap", true, true, gap_answer}, Job{"calibrate", false, false, calibrate_answer},
+                           Job{"noise", false, false, noise_answer},
+                           Job{"surfacings", false, false, surfacings_answer},
+                           Job{"evidence", true, true, evidence_answer}};
+constexpr Job kBank{kBankJob, true, false, bank_answer};
 
 }  // namespace
 

@@ -33,7 +33,6 @@ struct Job {
   std::string_view name;  ///< as in `navcal fleet plan --job`
   bool uses_vehicle;      ///< the answer depends on the nominal vehicle
   bool uses_bank;         ///< a null bank is made first, but for a layout
-  bool takes_layout;      ///< the vehicle may be a layout
   /// The answer as one JSON object without what depends on machine, time and place: the same input gives the same
   /// bytes. Throws what a recording that cannot be read throws.
   std::string (*answer)(const JobInput& input);

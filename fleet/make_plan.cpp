@@ -19,6 +19,7 @@
 #include "config/layout/layout_file.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
+#include "diagnosis/diagnose_layout.h"
 #include "fleet/catalogue.h"
 #include "fleet/jobs.h"
 #include "fleet/plan.h"
@@ -191,8 +192,8 @@ class Planner {
     toml = vehicle.is_layout ? config::layout_file(config::parse_layout(toml, file.native()))
                              : config::vehicle_file(config::parse_vehicle(toml, file.native()));
     if (!vehicle.is_layout && !nominals_.empty()) {
-      throw std::invalid_argument(
-          "--nominal needs a layout (--vehicle): the floor of other vehicles is simulated");
+      toml = config::layout_file(diagnosis::layout_of(config::parse_vehicle(toml, file.native())));
+      vehicle.is_layout = true;
     }
     std::string keyed = toml;
     for (const RecordingFile& nominal : nominals_) keyed += nominal.recording;
@@ -214,11 +215,8 @@ class Planner {
         task.configuration = configuration_;
         const PlannedVehicle vehicle = job->uses_vehicle ? vehicle_of(file.path) : PlannedVehicle{};
         task.vehicle = vehicle.key;
-        if (vehicle.is_layout) {
-          if (!job->takes_layout)
-            throw std::invalid_argument(fmt::format("--job {}: not for a vehicle with a layout", job->name));
-          if (std::ranges::count(nominals_, file.recording, &RecordingFile::recording) > 0) continue;
-        }
+        if (vehicle.is_layout && std::ranges::count(nominals_, file.recording, &RecordingFile::recording) > 0)
+          continue;
         if (job->uses_bank) {
           task.bank_missions = vehicle.is_layout ? 0 : request_.bank_missions;
           task.bank_seed = request_.bank_seed;

@@ -47,7 +47,9 @@ PooledMissions::PooledMissions(std::vector<FleetMission> missions) : missions_(s
   });
   const auto& parameters = missions_.front().information.parameters;
   for (const FleetMission& mission : missions_) {
-    if (mission.information.parameters != parameters) {
+    const bool has_errors = !mission.vehicle_error.empty();
+    if (mission.information.parameters != parameters ||
+        (has_errors && mission.vehicle_error.size() != parameters.size())) {
       throw std::invalid_argument(fmt::format("{} and {} were compared with different libraries of effects",
                                               missions_.front().recording, mission.recording));
     }
@@ -68,10 +70,12 @@ PooledMissions::PooledMissions(std::vector<FleetMission> missions) : missions_(s
   designs_ = grouped(missions_, &FleetMission::design);
   days_ = grouped(missions_, &FleetMission::day);
   vehicle_of_.resize(missions_.size());
-  const Eigen::MatrixXd prior =
-      Eigen::MatrixXd::Identity(size(), size()) / (kVehicleTolerance * kVehicleTolerance);
   for (std::size_t v = 0; v < vehicles_.size(); ++v) {
-    Eigen::MatrixXd sum = prior;
+    Eigen::VectorXd tolerance = Eigen::VectorXd::Constant(size(), kVehicleTolerance);
+    const std::vector<double>& errors = missions_[vehicles_[v].missions.front()].vehicle_error;
+    for (Eigen::Index j = 0; j < size() && !errors.empty(); ++j)
+      tolerance[j] = std::max(tolerance[j], errors[static_cast<std::size_t>(j)]);
+    Eigen::MatrixXd sum = tolerance.cwiseAbs2().cwiseInverse().asDiagonal();
     Eigen::VectorXd score = Eigen::VectorXd::Zero(size());
     for (const std::size_t m : vehicles_[v].missions) {
       vehicle_of_[m] = v;

@@ -21,6 +21,9 @@ struct FleetMission {
   std::string day;        ///< date and place: missions of one day are in the same water
   std::int64_t utc_ns = 0;
   gap::RecordingInformation information;
+  /// Standard deviation of what vehicles of the design differ in, typical values, the same in all missions of one
+  /// vehicle. Empty: kVehicleTolerance.
+  std::vector<double> vehicle_error{};
 };
 
 /// Missions that belong together: indices into PooledMissions::missions(), ascending.

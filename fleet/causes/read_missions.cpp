@@ -89,6 +89,7 @@ std::optional<FleetMission> mission_of(const Task& task, const std::string& path
     }
     FleetMission mission;
     mission.information = information_from(answer.at("information"));
+    mission.vehicle_error = answer.at("vehicle_error").get<std::vector<double>>();
     mission.recording = name;
     const AnswerJson& identity = answer.at("identity");
     mission.vehicle = vehicle_named(identity, file);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -161,10 +162,34 @@ TEST_F(FleetProgram, RecordingsOfALayoutAreDiagnosedBesideTheNominalOnes) {
   // Another floor is another diagnosis.
   plan({"--vehicle", layout, "--nominal", first});
   EXPECT_NE(out_.find("2 new"), std::string::npos) << out_;
-  EXPECT_EQ(run({"plan", folder_.recordings().string(), "-o", folder_.plan().string(), "--vehicle", layout,
-                 "--job", "evidence"}),
-            2);
-  EXPECT_EQ(run({"plan", folder_.recordings().string(), "-o", folder_.plan().string(), "--nominal", first}), 2);
+}
+
+// Evidence was for vehicle files only.
+TEST_F(FleetProgram, MissionsOfALayoutTellTogetherWhichThrusterIsWeak) {
+  const std::string layout = NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml";
+  fs::create_directories(folder_.recordings() / "rov7");
+  const auto simulate = [&](const fs::path& file, const char* seed, const char* effect) {
+    ASSERT_EQ(ended(started({NAVCAL_PROGRAM, "simulate", "--vehicle", layout, "--mission", "survey", "--seconds",
+                             "40", "--seed", seed, "--effect", effect, "-o", file.string()})),
+              0)
+        << err_;
+  };
+  simulate(folder_ / "n1.cap", "1", "thrust_scale=0");
+  simulate(folder_ / "n2.cap", "2", "thrust_scale=0");
+  std::ofstream(folder_ / "weak.toml") << "[thrust_scale]\nof = \"thruster.1\"\nscale = -0.2\n";
+  for (const char* const seed : {"3", "4"}) {
+    ASSERT_EQ(ended(started({NAVCAL_PROGRAM, "simulate", "--vehicle", layout, "--mission", "survey", "--seconds",
+                             "40", "--seed", seed, "--effects", (folder_ / "weak.toml").string(), "-o",
+                             (folder_.recordings() / "rov7" / (std::string(seed) + ".cap")).string()})),
+              0)
+        << err_;
+  }
+  plan({"--vehicle", layout, "--nominal", (folder_ / "n1.cap").string(), "--nominal",
+        (folder_ / "n2.cap").string(), "--job", "evidence"});
+  EXPECT_NE(out_.find("2 tasks (2 new), 0 of them null banks"), std::string::npos) << out_;
+  ASSERT_EQ(run({"submit", folder_.plan().string(), "--local"}), 0) << err_;
+  ASSERT_EQ(run({"causes", folder_.plan().string()}), 0) << err_;
+  EXPECT_NE(out_.find("thrust_scale of thruster.1 of vehicle rov7: scale -0."), std::string::npos) << out_;
 }
 
 TEST_F(FleetProgram, SlurmDoesAllTasksInArraysOfTheSizeItTakes) {

@@ -94,6 +94,20 @@ TEST(FleetAnswer, IsUnknownWhereWhatIsThereIsNotInTheLibrary) {
   EXPECT_EQ(answer.vehicles[2].verdict, FleetVerdict::no_gap);
 }
 
+// Vehicles of one layout differ by more than 2 %: that belongs to none of them as a cause.
+TEST(FleetAnswer, WhatVehiclesOfADesignMayDifferInIsNoCause) {
+  SimulatedFleet fleet(6, {5, 8}, [](std::size_t v, std::size_t, Eigen::VectorXd& values) {
+    if (v == 1) values[0] += 0.3;
+  });
+  auto missions = fleet.missions();
+  const auto causes = [&] { return answer_of_fleet(PooledMissions(missions), 2, kSilent).causes.size(); };
+  EXPECT_EQ(causes(), 1U);
+  for (FleetMission& mission : missions) mission.vehicle_error.assign(SimulatedFleet::parameters().size(), 0.3);
+  EXPECT_EQ(causes(), 0U);
+  missions.front().vehicle_error.pop_back();
+  EXPECT_THROW(PooledMissions{missions}, std::invalid_argument);
+}
+
 TEST(FleetAnswer, StatesErrorsThatHold) {
   double square = 0;
   constexpr int kFleets = 12;
