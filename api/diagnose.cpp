@@ -75,7 +75,8 @@ Diagnosis diagnose(const std::filesystem::path& mission, const DiagnoseOptions& 
 Diagnosis diagnose_together(const std::vector<std::filesystem::path>& missions, const DiagnoseOptions& options) {
   return guarded_with_progress(options.progress, [&](ProgressRelay& relay) {
     const auto tell = [&](std::string_view step, double share) { relay(step, share); };
-    const auto layout = emulation::layout_in(options.vehicle);
+    const auto layout =
+        emulation::layout_to_diagnose(options.vehicle, !options.nominals.empty() || options.steady);
     const gap::Request request = request_of(missions, options, layout.has_value());
     if (!layout) return diagnosis_of(gap::diagnose(request, tell));
     const gap::Diagnosis found = diagnosis::diagnose(

@@ -16,8 +16,6 @@ namespace navcal::api {
 gap::Request request_of(const std::vector<std::filesystem::path>& missions, const DiagnoseOptions& options,
                         bool is_of_layout) {
   if (missions.empty()) throw Error(ErrorKind::bad_argument, "missions: at least one recording is needed");
-  if (!is_of_layout && (!options.nominals.empty() || options.steady))
-    throw Error(ErrorKind::bad_argument, "nominals and steady need a layout (vehicle)");
   if (!is_of_layout) sim::expect_effects(options.exclude);
   if (options.bank < gap::kLeastNulls || options.bank > gap::kMostNulls)
     throw Error(ErrorKind::bad_argument,

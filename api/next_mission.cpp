@@ -43,7 +43,8 @@ report::NextMissionSource source_of(const std::vector<std::filesystem::path>& mi
 
 gap::NextMission plan_of(const std::vector<std::filesystem::path>& missions, const NextMissionOptions& options,
                          const config::MissionLimits& limits, const gap::Progress& tell) {
-  const auto layout = emulation::layout_in(options.diagnosis.vehicle);
+  const auto layout = emulation::layout_to_diagnose(
+      options.diagnosis.vehicle, !options.diagnosis.nominals.empty() || options.diagnosis.steady);
   const gap::Request request = request_of(missions, options.diagnosis, layout.has_value());
   if (!layout) return gap::plan_next_mission(*gap::study(request, tell), limits, tell);
   return diagnosis::plan_next_mission(

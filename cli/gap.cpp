@@ -24,6 +24,7 @@
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
 #include "diagnosis/diagnose_layout.h"
+#include "emulation/chosen_vehicle.h"
 #include "gap/verdict/request.h"
 #include "record/recording.h"
 #include "report/gap_report.h"
@@ -120,8 +121,6 @@ struct GapCommandOptions : GapRequestOptions {
 };
 
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const std::optional<config::Layout>& layout) {
-  if (!layout) expect_no_nominals(options.nominals);
-  if (!layout && options.is_steady) throw std::invalid_argument("--steady needs a layout (--vehicle)");
   const gap::Request request = gap_request_of(options, layout.has_value());
   base::Progress progress("gap", base::Progress::Answer::at_the_end);
   const auto show = [&](std::string_view what, double done) { progress.show(what, done); };
@@ -190,7 +189,9 @@ void find_gap(const GapCommandOptions& options) {
     (void)gap::quantities_of(options.without);
     // Only exports want it of a saved diagnosis.
     const auto layout =
-        options.saved.empty() || !options.exports.wanted.empty() ? layout_of(options) : std::nullopt;
+        options.saved.empty() || !options.exports.wanted.empty()
+            ? emulation::layout_to_diagnose(options.source.vehicle, !options.nominals.empty() || options.is_steady)
+            : std::nullopt;
     const std::vector<ExportFile> exports = expect_outputs(options, layout.has_value());
     const gap::Diagnosis diagnosis = options.saved.empty()
                                          ? diagnosis_of(options, layout)

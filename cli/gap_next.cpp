@@ -16,6 +16,7 @@
 #include "config/mission_limits.h"
 #include "config/mission_text.h"
 #include "diagnosis/next_layout_mission.h"
+#include "emulation/chosen_vehicle.h"
 #include "gap/design/next_mission.h"
 #include "gap/verdict/study.h"
 #include "report/next_mission.h"
@@ -67,8 +68,7 @@ void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
 void plan_next(const GapNextOptions& options) {
   const config::MissionLimits limits = limits_of(options);
   expect_writable(options);
-  const auto layout = layout_of(options.asked);
-  if (!layout) expect_no_nominals(options.nominals);
+  const auto layout = emulation::layout_to_diagnose(options.asked.source.vehicle, !options.nominals.empty());
   const base::Interruptible interruptible;
   base::Progress progress("gap next", base::Progress::Answer::at_the_end);
   const gap::Progress show = [&](std::string_view what, double done) {

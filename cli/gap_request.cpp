@@ -2,7 +2,6 @@
 #include "cli/gap_request.h"
 
 #include <cstdlib>
-#include <stdexcept>
 #include <variant>
 
 #include "cli/live/option_kinds.h"
@@ -22,16 +21,6 @@ std::filesystem::path usual_cache() {
   if (const auto caches = folder("XDG_CACHE_HOME"); caches.is_absolute()) return caches / "navcal";
   if (const auto home = folder("HOME"); home.is_absolute()) return home / ".cache" / "navcal";
   return {};
-}
-
-std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
-  return emulation::layout_in(options.source.vehicle);
-}
-
-void expect_no_nominals(const std::vector<std::string>& nominals) {
-  if (!nominals.empty())
-    throw std::invalid_argument(
-        "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
 }
 
 gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout) {

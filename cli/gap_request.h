@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "cli/live/shared_options.h"
-#include "config/layout.h"
 #include "emulation/place_arguments.h"
 #include "gap/verdict/request.h"
 #include "report/gap_words.h"
@@ -30,12 +29,6 @@ void add_gap_request(CLI::App& command, GapRequestOptions& options);
 
 /// Where the user's null banks are, after the XDG base directories; empty when there is no such place.
 [[nodiscard]] std::filesystem::path usual_cache();
-
-/// The layout of --vehicle, if it is one. Throws config::Error.
-[[nodiscard]] std::optional<config::Layout> layout_of(const GapRequestOptions& options);
-
-/// Without a layout the floor is simulated. Throws std::invalid_argument where nominal recordings are given.
-void expect_no_nominals(const std::vector<std::string>& nominals);
 
 /// The request without its vehicle where that is a layout. Throws config::Error, base::Failure.
 [[nodiscard]] gap::Request gap_request_of(const GapRequestOptions& options, bool is_of_layout = false);

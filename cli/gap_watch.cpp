@@ -141,7 +141,6 @@ std::optional<std::array<double, 3>> given_field(const GapWatchOptions& options)
 std::unique_ptr<gap::WindowSource> reference_of(const GapWatchOptions& options, gap::ReferenceRequest request,
                                                 const std::optional<config::Settings>& settings,
                                                 Clock::time_point end, const gap::Progress& show) {
-  expect_no_nominals(options.nominals);
   if (settings) request.instruments = devices::without_mounting(devices::instrument_model(*settings));
   const auto given = given_field(options);
   if (!options.recording.empty()) {
@@ -201,14 +200,14 @@ void watch_daemon(const GapWatchOptions& options, const std::optional<config::Se
 /// before the first fix.
 std::unique_ptr<gap::WindowSource> source_of(const GapWatchOptions& options, const gap::Library& library,
                                              std::optional<config::Settings>& settings, Clock::time_point end) {
-  emulation::ChosenVehicle vehicle = emulation::load_chosen_vehicle(options.vehicle);
+  auto layout = emulation::layout_to_diagnose(options.vehicle, !options.nominals.empty());
   base::Progress progress("gap watch", base::Progress::Answer::at_the_end);
   const auto show = [&](std::string_view what, double done) {
     if (base::Interruptible::interrupted())
       throw base::Failure(base::Exit::failed, "interrupted before the watch began");
     progress.show(what, done);
   };
-  if (auto* const layout = std::get_if<config::Layout>(&vehicle)) {
+  if (layout) {
     auto windows = std::make_unique<diagnosis::LayoutWindows>(
         diagnosis::LayoutWatchRequest{.layout = std::move(*layout),
                                       .nominals = {options.nominals.begin(), options.nominals.end()},
@@ -221,7 +220,7 @@ std::unique_ptr<gap::WindowSource> source_of(const GapWatchOptions& options, con
   }
   const gap::BankOptions bank{options.bank_missions, options.bank_seed, base::threads_or_cores(0)};
   return reference_of(options,
-                      {std::get<config::VehicleSettings>(std::move(vehicle)),
+                      {std::get<config::VehicleSettings>(emulation::load_chosen_vehicle(options.vehicle)),
                        library,
                        {},
                        {},

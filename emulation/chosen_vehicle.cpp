@@ -12,6 +12,7 @@
 #include "sim/instruments/actuator_outputs.h"
 #include "sim/layout/assessment/parts.h"
 #include "sim/layout/control/layout_mission_helm.h"
+#include "sim/layout/layout_of.h"
 #include "sim/layout/pulses.h"
 
 namespace navcal::emulation {
@@ -37,6 +38,14 @@ std::optional<config::Layout> layout_in(const std::filesystem::path& file) {
   ChosenVehicle vehicle = load_chosen_vehicle(file);
   auto* const layout = std::get_if<config::Layout>(&vehicle);
   return layout != nullptr ? std::optional(std::move(*layout)) : std::nullopt;
+}
+
+std::optional<config::Layout> layout_to_diagnose(const std::filesystem::path& file,
+                                                 bool has_nominals_or_is_steady) {
+  auto layout = layout_in(file);
+  if (!layout && has_nominals_or_is_steady)
+    layout = sim::layout_of(std::get<config::VehicleSettings>(load_chosen_vehicle(file)));
+  return layout;
 }
 
 void expect_simulable(const config::Layout& layout, const std::filesystem::path& file,

@@ -23,6 +23,10 @@ using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
 
 /// The layout of a file; nullopt where the file is none, or there is no file. Throws config::Error.
 [[nodiscard]] std::optional<config::Layout> layout_in(const std::filesystem::path& file);
+/// Nominal vehicle of a diagnosis, where it is a layout. With nominal recordings, or by mean forces, any other
+/// vehicle is diagnosed as the layout that it is, too (sim::layout_of). Throws config::Error.
+[[nodiscard]] std::optional<config::Layout> layout_to_diagnose(const std::filesystem::path& file,
+                                                               bool has_nominals_or_is_steady);
 
 struct MotionOnMission {
   std::unique_ptr<sim::SimulatedMotion> motion;

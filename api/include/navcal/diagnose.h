@@ -17,9 +17,10 @@ namespace navcal::api {
 struct DiagnoseOptions {
   std::vector<std::filesystem::path>
       holdouts;  ///< other missions of the same vehicle, on which the answer is judged
-  /// Recordings of the same vehicle without a gap, which show what is no gap; only with a layout.
+  /// Recordings of the same vehicle without a gap, which show what is no gap; a vehicle file is then
+  /// compared as the layout that it is.
   std::vector<std::filesystem::path> nominals;
-  bool steady = false;            ///< judge by mean forces over steady stretches alone; only with a layout
+  bool steady = false;            ///< judge by mean forces over steady stretches alone
   std::filesystem::path vehicle;  ///< the nominal one, a vehicle file or a layout; empty: the reference vehicle
   std::filesystem::path config;   ///< of all recordings, instead of their own; empty: none
   std::optional<std::array<double, 3>>
@@ -28,7 +29,7 @@ struct DiagnoseOptions {
   /// Instruments to be left out of all recordings, as if they were not there: compass, field, tilt, card, gyros,
   /// accelerometers, depth, gps or motor.
   std::vector<std::string> without;
-  int bank = 100;               ///< simulated null missions, 10 to 10000; not with a layout
+  int bank = 100;               ///< simulated null missions, 10 to 10000; not with nominals
   std::uint64_t seed = 1;       ///< of their noise and tolerances
   std::filesystem::path cache;  ///< folder in which null banks are kept; empty: none are kept
   unsigned threads = 0;         ///< 0: as many as there are processors
