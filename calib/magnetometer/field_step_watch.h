@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "calib/archive.h"
@@ -15,10 +16,15 @@ class FieldStepWatch {
   static constexpr std::uint64_t kLongest = 128;  ///< readings from onset to alarm; a slower rise is not a step
 
   /// True: the field may have stepped, since_onset() readings ago. `z` >= 0.
-  bool update(double z);
+  bool update(double z) {
+    sum_ += std::min(z, kCeiling) - kReference;
+    ++since_onset_;
+    if (!(sum_ > 0) || since_onset_ > kLongest) reset();
+    return sum_ > kAlarm;
+  }
   /// Readings since the sum last was zero, with the newest.
   [[nodiscard]] std::uint64_t since_onset() const { return since_onset_; }
-  void reset();
+  void reset() { *this = {}; }
 
   /// True when a reading is too far off to be used.
   [[nodiscard]] static bool is_off(double z) { return z > kGate; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -104,9 +105,12 @@ class CalibratorUnit {
 // Helpers of quantities().
 inline constexpr double kUnknownStd = std::numeric_limits<double>::infinity();
 /// Infinite for a negative variance or one that is not a number.
-[[nodiscard]] double std_of(double variance);
+[[nodiscard]] inline double std_of(double variance) { return variance >= 0 ? std::sqrt(variance) : kUnknownStd; }
 /// A number that the readings determine to better than `unknown`; else not a number.
-[[nodiscard]] Quantity determined(std::string_view name, double value, double std, double unknown);
+[[nodiscard]] inline Quantity determined(std::string_view name, double value, double std, double unknown) {
+  if (!(std < unknown)) return {name, std::numeric_limits<double>::quiet_NaN(), kUnknownStd};
+  return {name, value, std};
+}
 
 /// Place of a member of Correction: place_of<&Correction::gyro>().
 template <auto member>
