@@ -14,7 +14,8 @@ namespace navcal::report {
 namespace {
 
 constexpr double kLetterWidth = 6.3;  // mean width in the legend's type
-constexpr std::array<std::string_view, 7> kNamesOfInks{"before", "after", "fit", "first", "second", "third", "fourth"};
+constexpr std::array<std::string_view, 7> kNamesOfInks{"before", "after", "fit",   "first",
+                                                       "second", "third", "fourth"};
 
 std::string_view name_of(SvgPlot::Ink ink) { return kNamesOfInks[static_cast<std::size_t>(ink)]; }
 
