@@ -14,7 +14,8 @@ namespace navcal::diagnosis {
 /// thruster.2".
 struct LayoutInformation {
   gap::InformationResult result;
-  /// Standard deviation between vehicles of the layout, the same in all recordings of one vehicle; typical values.
+  /// Standard deviation between vehicles of the layout, and of what the nominal recordings leave open: the same in
+  /// all recordings of one vehicle; typical values.
   Eigen::VectorXd vehicle_error;
 };
 
