@@ -37,7 +37,7 @@ LayoutInformation information_of(const gap::Request& request, const config::Layo
                                         parameter.low / parameter.typical, parameter.high / parameter.typical});
       columns.push_back(parameter.column);
       units.push_back(parameter.typical * parameter.per_unit);
-      // What the nominal recordings leave open is the same in all missions, and does not average out either.
+      // The error of the nominal vehicle is the same in all missions, and does not average out either.
       spread.push_back(
           std::hypot(bank.scatter.vehicle[parameter.column], bank.prior.root.row(parameter.column).norm()) /
           units.back());

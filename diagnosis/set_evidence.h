@@ -34,7 +34,7 @@ class SetEvidence {
   /// Over that of no cause.
   [[nodiscard]] double gain(const CauseSet& set) const;
 
-  /// Of the set's columns, in their order; with the widest prior.
+  /// Estimate of the set's columns, in their order, with the widest prior.
   struct Posterior {
     std::vector<Eigen::Index> columns;
     Eigen::VectorXd mean;

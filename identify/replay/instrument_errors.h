@@ -19,7 +19,7 @@ class InstrumentErrors {
  public:
   /// None.
   InstrumentErrors() = default;
-  /// By names of effects, and their first parameters in the units of their names; the others are zero.
+  /// Effects by name, each with its first parameters in the units of their names; the others are zero.
   explicit InstrumentErrors(const std::map<std::string_view, std::vector<double>>& parameters);
 
   [[nodiscard]] bool empty() const { return effects_ == nullptr; }

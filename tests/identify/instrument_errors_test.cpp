@@ -58,7 +58,7 @@ TEST(InstrumentErrors, AGyroFeelsTheSpecificForce) {
   EXPECT_EQ(errors[0], 0);
 }
 
-// With H the level field: deviation = -(bx sin psi + by cos psi) / H.
+// H is the level field, and deviation = -(bx sin psi + by cos psi) / H.
 TEST(InstrumentErrors, HardIronDeviatesTheHeadingByItsSineAndCosine) {
   constexpr double kDip_rad = 1, kField_uT = 50;
   const double level_uT = kField_uT * std::cos(kDip_rad);
