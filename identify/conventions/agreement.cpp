@@ -41,6 +41,7 @@ constexpr std::size_t kWindow = 20;  ///< steps of the grid
 constexpr int kModelSteps = 2;       ///< in one of the grid
 constexpr double kWindow_s = kWindow * kGrid_s;
 constexpr double kSteepestPitch_rad = 1.3;
+constexpr double kSmall = 1e-12;
 constexpr double kMostTurn_rad = 0.7;  ///< declination and deviation of a compass are less
 
 /// Steps of the grid in which actuators tell: 1 s for a vehicle of half a metre, by Froude's law for others.
@@ -48,6 +49,42 @@ std::size_t response_of(const config::Layout& layout) {
   constexpr double kLeast_s = 1, kMost_s = 10, kLength_m = 0.5;
   const double time_s = std::clamp(std::sqrt(layout.body.size_m[0] / kLength_m), kLeast_s, kMost_s);
   return static_cast<std::size_t>(std::lround(time_s / kGrid_s));
+}
+
+/// Most that the noise of the grid's velocity varies, by the Doppler log, the receiver's velocity or its
+/// positions: two standard errors of the variance of so many readings beyond it, m2/s2.
+double most_noise(const RecordedMotion& motion, const GriddedMotion& grid) {
+  const bool has_course = motion.has(Channel::north_velocity);
+  const auto& readings = motion[grid.by_bottom     ? Channel::bottom_y
+                                : grid.has_doppler ? Channel::water_y
+                                : has_course       ? Channel::north_velocity
+                                                   : Channel::north];
+  if (readings.empty()) return 0;
+  const auto n = static_cast<double>(readings.size());
+  double variance = 0;
+  for (const Reading& reading : readings) variance += reading.std * reading.std / n;
+  if (!grid.has_doppler && !has_course) variance *= 2 / (GriddedMotion::kSlope_s * GriddedMotion::kSlope_s);
+  return variance * (1 + 2 * std::sqrt(2 / n));
+}
+
+/// Velocities at the starts of responses: the measured ones, moved by the share of their noise towards the mean
+/// ahead and to nothing sideways. A vehicle unstable in yaw would turn by the noise of its sway. NaN where
+/// unmeasured.
+std::vector<Eigen::Vector3d> likely_velocities(const GriddedMotion& grid, double noise_m2_s2) {
+  std::vector<Eigen::Vector3d> out = grid.velocity;
+  Eigen::Array3d usual = Eigen::Array3d::Zero(), squares = usual;
+  double count = kSmall;
+  for (const Eigen::Vector3d& velocity : out) {
+    if (!velocity.allFinite()) continue;
+    usual.x() += velocity.x();
+    squares += velocity.array().square();
+    ++count;
+  }
+  usual /= count;
+  const Eigen::Array3d spread = squares / count - usual.square();
+  const Eigen::Array3d share = (1 - noise_m2_s2 / spread.max(kSmall)).max(0);
+  for (Eigen::Vector3d& velocity : out) velocity = usual + share * (velocity.array() - usual);
+  return out;
 }
 
 /// Residuals of one relation, window by window.
@@ -78,7 +115,9 @@ class Gathered {
 /// All relations of one motion.
 class Relations {
  public:
-  Relations(const RecordedMotion& motion) : motion_(motion), grid_(motion, Channel::bottom_x) {}
+  Relations(const RecordedMotion& motion)
+      : motion_(motion), grid_(motion, Channel::bottom_x),
+        velocity_m_s_(likely_velocities(grid_, most_noise(motion, grid_))) {}
 
   void kinematics() {
     for (std::size_t k = 0; k + kWindow < grid_.rows; k += kWindow) window(k, k + kWindow);
@@ -191,7 +230,7 @@ class Relations {
     sim::Body body;
     body.position_m = {0, 0, 10};  // away from the surface
     body.euler_rad = grid_.euler(begin);
-    body.velocity << (has_velocity ? grid_.velocity[begin] : Eigen::Vector3d::Zero().eval()), grid_.rates[begin];
+    body.velocity << (has_velocity ? velocity_m_s_[begin] : Eigen::Vector3d::Zero().eval()), grid_.rates[begin];
     if (!body.velocity.allFinite() || !body.euler_rad.allFinite() || !is_sane(body)) return;
     const double step_s = kGrid_s / kModelSteps;
     sim::Body driven = body, drifting = body;
@@ -204,6 +243,10 @@ class Relations {
       drifting = vehicle.step(drifting, neutral, step_s).body;
       if (!is_sane(driven) || !is_sane(drifting)) return;
     }
+    if (getenv("DBG"))
+      fprintf(stderr, "%g  v %g %g %g r %g drift %g driven %g\n", kGrid_s * static_cast<double>(begin),
+              body.velocity[0], body.velocity[1], grid_.velocity[begin][1], body.velocity[5], drifting.velocity[5],
+              driven.velocity[5]);
     sim::Vector6 measured;
     measured << (has_velocity ? grid_.velocity[begin + response_] : Eigen::Vector3d::Constant(kUnknown).eval()),
         grid_.rates[begin + response_];
@@ -226,6 +269,7 @@ class Relations {
 
   const RecordedMotion& motion_;
   GriddedMotion grid_;
+  std::vector<Eigen::Vector3d> velocity_m_s_;  ///< at the starts of responses
   std::array<Gathered, kRelations> all_;
   std::vector<std::complex<double>> ways_, reckoned_;  ///< north + i east, of the windows
   std::size_t response_ = 0;                           ///< steps of the grid

@@ -29,9 +29,8 @@ std::vector<double> on_grid(const RecordedMotion& motion, Channel channel, std::
 }
 
 double GriddedMotion::slope(Channel channel, std::size_t k) const {
-  constexpr std::size_t kSteps = 3;
-  if (k < kSteps || k + kSteps >= rows) return kUnknown;
-  return change(channel, k - kSteps, k + kSteps) / (2 * kSteps * kGrid_s);
+  if (k < kSlopeSteps || k + kSlopeSteps >= rows) return kUnknown;
+  return change(channel, k - kSlopeSteps, k + kSlopeSteps) / kSlope_s;
 }
 
 GriddedMotion::GriddedMotion(const RecordedMotion& motion, Channel doppler) : rows(grid_rows(motion)) {

@@ -52,7 +52,9 @@ struct GriddedMotion {
     const double all = at(channel, to) - at(channel, from);
     return describe(channel).is_angle ? base::wrapped(all) : all;
   }
-  /// Derivative over 0.6 s.
+  static constexpr std::size_t kSlopeSteps = 3;
+  static constexpr double kSlope_s = 2 * kSlopeSteps * kGrid_s;
+  /// Derivative over kSlope_s.
   [[nodiscard]] double slope(Channel channel, std::size_t k) const;
 };
 

@@ -68,5 +68,18 @@ TEST_F(VehicleLayout, ConvertWritesALayoutThatCheckReads) {
   EXPECT_EQ(run_vehicle("convert vehicle.toml -o vehicle.toml"), 2) << "it would be written over";
 }
 
+TEST_F(VehicleLayout, AVehicleUnstableInYawThatIsHeldStraightHasNoWrongSign) {
+  // Its receiver's velocity is noisy, and by a wrong sway it would turn within a second.
+  const std::string layout = NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml";
+  for (const std::string seed : {"2", "3", "5"}) {
+    const std::string simulated =
+        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' simulate --vehicle '" + layout +
+        "' --mission survey --seconds 60 --seed " + seed + " -o dive" + seed + ".cap > out 2> err < /dev/null";
+    ASSERT_EQ(std::system(simulated.c_str()), 0) << said("err");
+    ASSERT_EQ(run_vehicle("check --json '" + layout + "' dive" + seed + ".cap"), 0) << said("err");
+    EXPECT_TRUE(nlohmann::json::parse(said("out")).at("conventions").empty()) << seed << said("out");
+  }
+}
+
 }  // namespace
 }  // namespace navcal::cli
