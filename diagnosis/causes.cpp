@@ -97,6 +97,21 @@ std::optional<Channel> gyro_of(std::string_view parameter) {
   return std::nullopt;
 }
 
+/// Adds a number of a simulator's effect to a cause and to the fit. `fitted`: the change that it makes.
+void add_parameter(const sim::EffectParameter& of, double low, double high, identify::Parameter fitted,
+                   Cause& cause, CauseLibrary& library) {
+  cause.parameters.push_back({.name = std::string(of.name),
+                              .typical = of.typical,
+                              .low = low,
+                              .high = high,
+                              .column = static_cast<Eigen::Index>(library.parameters.size())});
+  fitted.name = cause.words() + " " + std::string(of.name);
+  fitted.prior_std = kUsualTolerance * of.typical;
+  fitted.low = of.least;
+  fitted.high = of.greatest;
+  library.parameters.push_back(std::move(fitted));
+}
+
 void add_effects(const config::Layout& layout, const std::set<std::string, std::less<>>& excluded,
                  CauseLibrary& library) {
   for (const sim::LayoutEffectDescription& about : sim::layout_effects()) {
@@ -105,35 +120,20 @@ void add_effects(const config::Layout& layout, const std::set<std::string, std::
     if (about.part == sim::LayoutPart::vehicle) owners = {""};
     const auto parameters = sim::parameters_for(layout, about);
     for (const std::string& of : owners) {
-      Cause cause{.name = std::string(about.name),
-                  .of = of,
-                  .manoeuvre = std::string(about.manoeuvre.text()),
-                  .parameters = {}};
+      Cause cause{.name = std::string(about.name), .of = of, .manoeuvre = std::string(about.manoeuvre.text())};
       for (std::size_t i = 0; i < parameters.size(); ++i) {
         const sim::EffectParameter& parameter = parameters[i];
-        cause.parameters.push_back({.name = std::string(parameter.name),
-                                    .typical = parameter.typical,
-                                    .low = parameter.least,
-                                    .high = parameter.greatest,
-                                    .column = static_cast<Eigen::Index>(library.parameters.size())});
         sim::LayoutEffect effect{&about, of, std::vector<double>(parameters.size())};
-        library.parameters.push_back(
-            {.name = cause.words() + " " + std::string(parameter.name),
-             .unit = {},
-             .prior = 0,
-             .prior_std = kUsualTolerance * parameter.typical,
-             .low = parameter.least,
-             .high = parameter.greatest,
-             .key = {},
-             .elements = {},
-             .change =
-                 [effect, i](config::Layout& changed, double value) {
-                   sim::LayoutEffect here = effect;
-                   here.values[i] = value;
-                   changed = sim::changed_layout(std::move(changed), here);
-                 },
-             .is_of_actuator = cause.is_of_actuator(),
-             .step = (parameter.least == 0 ? kOneSidedStep : kEffectStep) * parameter.typical});
+        add_parameter(parameter, parameter.least, parameter.greatest,
+                      {.change =
+                           [effect, i](config::Layout& changed, double value) {
+                             sim::LayoutEffect here = effect;
+                             here.values[i] = value;
+                             changed = sim::changed_layout(std::move(changed), here);
+                           },
+                       .is_of_actuator = cause.is_of_actuator(),
+                       .step = (parameter.least == 0 ? kOneSidedStep : kEffectStep) * parameter.typical},
+                      cause, library);
       }
       library.causes.push_back(std::move(cause));
     }
@@ -147,20 +147,8 @@ void add_simulated(const sim::EffectDescription& about, const RecordedMotion& re
     const sim::EffectParameter& parameter = about.parameters[i];
     const auto gyro = about.name.starts_with("gyro_") ? gyro_of(parameter.name) : std::nullopt;
     if (gyro && !recording.has(*gyro)) continue;
-    cause.parameters.push_back({.name = std::string(parameter.name),
-                                .typical = parameter.typical,
-                                .low = -kLargestStrength * parameter.typical,
-                                .high = kLargestStrength * parameter.typical,
-                                .column = static_cast<Eigen::Index>(library.parameters.size())});
-    library.parameters.push_back({.name = cause.name + " " + std::string(parameter.name),
-                                  .unit = {},
-                                  .prior = 0,
-                                  .prior_std = kUsualTolerance * parameter.typical,
-                                  .low = parameter.least,
-                                  .high = parameter.greatest,
-                                  .key = {},
-                                  .elements = {},
-                                  .of_instruments = {{about.name, i}}});
+    const double most = kLargestStrength * parameter.typical;
+    add_parameter(parameter, -most, most, {.of_instruments = {{about.name, i}}}, cause, library);
   }
 }
 
@@ -181,9 +169,7 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
     const auto own = std::ranges::find(kOwnErrors, error.name, &OwnError::name);
     const auto simulated = own == kOwnErrors.end() ? sim::make_effect(error.name) : nullptr;
     Cause cause{.name = std::string(error.name),
-                .of = {},
                 .manoeuvre = std::string(simulated ? simulated->description().manoeuvre.text() : own->manoeuvre),
-                .parameters = {},
                 .is_instrument = true};
     if (error.parameters.empty()) add_simulated(simulated->description(), recording, cause, library);
     const auto typical_of = [&](std::string_view name) {

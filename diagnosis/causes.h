@@ -32,10 +32,10 @@ struct CauseParameter {
 /// What may be the cause of a gap: an effect of the layout's library on one part of it, or an error of an
 /// instrument.
 struct Cause {
-  std::string name;       ///< "thrust_scale"
-  std::string of;         ///< "thruster.2"; empty: the vehicle or its instruments
-  std::string manoeuvre;  ///< that shows it
-  std::vector<CauseParameter> parameters;
+  std::string name = {};       ///< "thrust_scale"
+  std::string of = {};         ///< "thruster.2"; empty: the vehicle or its instruments
+  std::string manoeuvre = {};  ///< that shows it
+  std::vector<CauseParameter> parameters = {};
   bool is_instrument = false;
 
   /// Of "thruster.2", and not of "sway" or of the vehicle.

@@ -337,13 +337,27 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const auto leading =
       std::find_if(found.sets.begin(), found.sets.end(), [](const ScoredSet& one) { return !one.causes.empty(); });
   const bool leads = !best.causes.empty() && gain_nats >= gap_nats(bank) + chance_nats;
-  if (louder.empty() && !was_loud && !leads) {
+  const auto led_by = [&] {
+    std::vector<std::string> words;
+    for (const std::size_t cause : leading->causes) words.push_back(evidence.library.causes[cause].words());
+    return fmt::format("{}", fmt::join(words, " and "));
+  };
+  // A lead in one recording that the held-out ones refute is an error of the model in the motion of that one,
+  // where all together depart no more than nominal ones do.
+  double held_out_nats = 0;
+  for (const ExplainedRecording& one : held_out) held_out_nats += one.gain_nats;
+  const auto count = static_cast<double>(held_out.size());
+  const double mean_power = (before + count * answer.gap.pooled.before) / (1 + count);
+  const bool is_refuted =
+      has_floor && leads && held_out_nats < kHoldoutLoss_nats && mean_power < (floor.mean + most_power) / 2;
+  if (louder.empty() && ((!was_loud && !leads) || is_refuted)) {
     answer.verdict = has_floor ? gap::Verdict::no_gap : gap::Verdict::unknown;
     answer.where.clear();
     const bool is_faint =
         leading != found.sets.end() && gain_nats + leading->log_odds - best.log_odds >= bank.leads.faint_nats;
-    const std::string but =
-        is_faint ? " but for a faint lead of " + library.causes[leading->causes.front()].words() : "";
+    const std::string but = leads      ? fmt::format(" but for {}, which the held-out recordings refute", led_by())
+                            : is_faint ? " but for a faint lead of " + led_by()
+                                       : "";
     answer.sentence = "No effect stands out; without nominal recordings (--nominal) a gap cannot be ruled out.";
     if (has_floor) {
       answer.sentence = fmt::format("Nothing exceeds what nominal recordings show{}.", but);
@@ -356,10 +370,8 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
     const auto closed = leading == found.sets.end() ? std::nullopt : closure(leading->causes).closed;
     if (!louder.empty() || closed.value_or(0) < gap::kClosedFrom)
       return say_unknown(gap::UnknownKind::outside, {}, louder, answer);
-    return say_unknown(
-        gap::UnknownKind::cannot_say,
-        library.causes[leading->causes.front()].words() + " would explain it, but stands out too little", louder,
-        answer);
+    return say_unknown(gap::UnknownKind::cannot_say, led_by() + " would explain it, but stands out too little",
+                       louder, answer);
   }
   const auto estimate = SetEvidence(found.changes, library).posterior(best.causes);
   std::string reason;

@@ -24,12 +24,13 @@ struct InstrumentNumber {
 /// with the file's value as its mean. A range [low, high] without a standard error counts as a uniform
 /// distribution, whose standard deviation is (high - low)/sqrt(12).
 struct Parameter {
-  std::string name;  ///< "body.mass_kg", "damping.linear.surge", "thruster[2].lag_s", "body.gravity_centre_m.z"
-  std::string unit;  ///< of the file; empty: none
+  /// "body.mass_kg", "damping.linear.surge", "thruster[2].lag_s", "body.gravity_centre_m.z".
+  std::string name = {};
+  std::string unit = {};  ///< of the file; empty: none
   double prior = 0, prior_std = 0;
-  double low, high;                   ///< bounds of the estimate
-  std::string key;                    ///< of the file
-  std::vector<std::size_t> elements;  ///< in the array of the key; two for an element of a symmetric matrix
+  double low = 0, high = 0;                ///< bounds of the estimate
+  std::string key = {};                    ///< of the file
+  std::vector<std::size_t> elements = {};  ///< in the array of the key; two for an element of a symmetric matrix
   /// Changes the layout by a value in another way than by its numbers (an effect); the key is then empty.
   std::function<void(config::Layout&, double)> change = {};
   bool is_of_actuator = false;  ///< such a change

@@ -59,8 +59,7 @@ double most_noise(const RecordedMotion& motion, const GriddedMotion& grid) {
                                 : grid.has_doppler ? Channel::water_y
                                 : has_course       ? Channel::north_velocity
                                                    : Channel::north];
-  if (readings.empty()) return 0;
-  const auto n = static_cast<double>(readings.size());
+  const double n = std::max(1.0, static_cast<double>(readings.size()));
   double variance = 0;
   for (const Reading& reading : readings) variance += reading.std * reading.std / n;
   if (!grid.has_doppler && !has_course) variance *= 2 / (GriddedMotion::kSlope_s * GriddedMotion::kSlope_s);

@@ -140,27 +140,27 @@ std::optional<FilterLinearised> FilteredReplay::linearise(const FilterPass& pass
   base::in_parallel(threads_, columns.size(), [&](std::size_t c) {
     const Eigen::Index at = columns[c];
     auto column = out.jacobian.col(static_cast<Eigen::Index>(c));
+    const auto stepped = [&](double step) {
+      Eigen::VectorXd values = at_values;
+      values[at] += step;
+      return values;
+    };
     if (at >= parameters) {
       const auto nuisance = static_cast<Nuisance>(at - parameters);
       if (!matters(nuisance)) return;
       const double step = is_delay(nuisance) ? kDelayColumn_s : kColumnPart * stds[at - parameters];
-      Eigen::VectorXd values = at_values;
-      values[at] += step;
-      column = slope(about, model_of(nominal, values),
+      column = slope(about, model_of(nominal, stepped(step)),
                      nuisance == Nuisance::actuator_delay ? felt : shown_in(nuisance), step);
       return;
     }
     const Parameter& parameter = parameters_[static_cast<std::size_t>(at)];
     if (parameter.of_instruments) {
       const double step = kColumnPart * parameter.prior_std;
-      Eigen::VectorXd values = at_values;
-      values[at] += step;
-      column = slope(about, model_of(nominal, values), shown_in_[static_cast<std::size_t>(at)], step);
+      column = slope(about, model_of(nominal, stepped(step)), shown_in_[static_cast<std::size_t>(at)], step);
       return;
     }
     const auto slope_over = [&](double step) {
-      Eigen::VectorXd values = at_values;
-      values[at] += step;
+      const Eigen::VectorXd values = stepped(step);
       const config::Layout layout = with_values(layout_, parameters_, values.head(parameters));
       const Driven moved{sim::LayoutVehicle(layout),
                          moves_actuators(parameter)
