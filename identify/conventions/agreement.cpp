@@ -242,10 +242,6 @@ class Relations {
       drifting = vehicle.step(drifting, neutral, step_s).body;
       if (!is_sane(driven) || !is_sane(drifting)) return;
     }
-    if (getenv("DBG"))
-      fprintf(stderr, "%g  v %g %g %g r %g drift %g driven %g\n", kGrid_s * static_cast<double>(begin),
-              body.velocity[0], body.velocity[1], grid_.velocity[begin][1], body.velocity[5], drifting.velocity[5],
-              driven.velocity[5]);
     sim::Vector6 measured;
     measured << (has_velocity ? grid_.velocity[begin + response_] : Eigen::Vector3d::Constant(kUnknown).eval()),
         grid_.rates[begin + response_];
