@@ -51,18 +51,14 @@ std::size_t response_of(const config::Layout& layout) {
   return static_cast<std::size_t>(std::lround(time_s / kGrid_s));
 }
 
-/// Most that the noise of the grid's velocity varies, by the Doppler log, the receiver's velocity or its
-/// positions: two standard errors of the variance of so many readings beyond it, m2/s2.
+/// Most that the noise of the grid's velocity varies: two standard errors of the variance of so many readings
+/// beyond it, m2/s2.
 double most_noise(const RecordedMotion& motion, const GriddedMotion& grid) {
-  const bool has_course = motion.has(Channel::north_velocity);
-  const auto& readings = motion[grid.by_bottom     ? Channel::bottom_y
-                                : grid.has_doppler ? Channel::water_y
-                                : has_course       ? Channel::north_velocity
-                                                   : Channel::north];
+  const auto& readings = motion[grid.velocity_from];
   const double n = std::max(1.0, static_cast<double>(readings.size()));
   double variance = 0;
   for (const Reading& reading : readings) variance += reading.std * reading.std / n;
-  if (!grid.has_doppler && !has_course) variance *= 2 / (GriddedMotion::kSlope_s * GriddedMotion::kSlope_s);
+  if (grid.velocity_from == Channel::north) variance *= 2 / (GriddedMotion::kSlope_s * GriddedMotion::kSlope_s);
   return variance * (1 + 2 * std::sqrt(2 / n));
 }
 
@@ -114,9 +110,7 @@ class Gathered {
 /// All relations of one motion.
 class Relations {
  public:
-  Relations(const RecordedMotion& motion)
-      : motion_(motion), grid_(motion, Channel::bottom_x),
-        velocity_m_s_(likely_velocities(grid_, most_noise(motion, grid_))) {}
+  Relations(const RecordedMotion& motion) : motion_(motion), grid_(motion, Channel::bottom_x) {}
 
   void kinematics() {
     for (std::size_t k = 0; k + kWindow < grid_.rows; k += kWindow) window(k, k + kWindow);
@@ -125,6 +119,7 @@ class Relations {
   void response(const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& actuators,
                 const ActuatorChange& change) {
     response_ = response_of(vehicle.layout());
+    velocity_m_s_ = likely_velocities(grid_, most_noise(motion_, grid_));
     for (std::size_t k = 0; k + response_ < grid_.rows; k += response_) respond(vehicle, actuators, change, k);
     respond_all();
   }

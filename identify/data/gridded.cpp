@@ -42,6 +42,7 @@ GriddedMotion::GriddedMotion(const RecordedMotion& motion, Channel doppler) : ro
   has_doppler = motion.has(doppler);
   by_bottom = has_doppler && doppler == Channel::bottom_x;
   const bool has_course = motion.has(Channel::north_velocity);
+  velocity_from = has_doppler ? doppler : has_course ? Channel::north_velocity : Channel::north;
   has_velocity = has_doppler || has_course || (motion.has(Channel::north) && motion.has(Channel::east));
   const Channel depth = motion.has(Channel::gauge_depth) ? Channel::gauge_depth : Channel::depth;
   const auto z = static_cast<Channel>(static_cast<std::size_t>(doppler) + 2);

@@ -28,8 +28,9 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 struct GriddedMotion {
   std::size_t rows = 0;
   std::array<std::vector<double>, kChannels> values;
-  std::vector<Eigen::Vector3d> velocity;  ///< of the body's origin; without a Doppler log by the fixes
-  std::vector<Eigen::Vector3d> rates;     ///< by gyros, else by the attitude
+  std::vector<Eigen::Vector3d> velocity;   ///< of the body's origin; without a Doppler log by the fixes
+  std::vector<Eigen::Vector3d> rates;      ///< by gyros, else by the attitude
+  Channel velocity_from = Channel::north;  ///< its first: of the Doppler log, the receiver's, or the position
   bool has_tilt = false, has_gyros = false, has_doppler = false, has_velocity = false, by_bottom = false;
 
   /// `doppler`: bottom_x or water_x, the velocity that counts where both are measured.
