@@ -168,6 +168,7 @@ void find_causes(LayoutStudy& study, const gap::Progress& progress) {
     bank = bank_of(*study.source, library, recordings.nominals, recordings.recording,
                    [&](double done) { progress("nominal recordings", done); });
   }
+  if (bank.interval_s) answer.remarks.push_back(identify::thinned_warning(*bank.interval_s));
   answer.remarks.push_back(
       bank.powers.empty()
           ? std::string("no nominal recording was given (--nominal): there is no floor, and no cause is named")

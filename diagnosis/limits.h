@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "gap/thresholds.h"
 
 // Thresholds of the diagnosis of layouts, with their units and the arguments for them.
@@ -23,7 +25,10 @@ inline constexpr double kEffectStep = 0.01, kOneSidedStep = 1;
 /// fitted in the first ones.
 inline constexpr std::size_t kNominalRounds = 3, kNoiseRounds = 2;
 /// Nominal recordings that the noises are fitted to; more change them little and take as long again.
-inline constexpr std::size_t kNoiseFrom = 2;
+inline constexpr std::size_t kNoiseFrom = 4;
+/// The first of identify::kIntervals_s that is tried. What a layout leaves out of a vehicle (how a rotor spins up,
+/// how the water follows) goes on for some tenths of a second: readings closer than that say it several times.
+inline constexpr std::size_t kFirstInterval = 1;
 /// Standard deviation of what is usual in vehicles and between recordings, typical strengths, and the number of
 /// observations that it counts as.
 inline constexpr double kUsualTolerance = 0.1, kToleranceWeight = 2;

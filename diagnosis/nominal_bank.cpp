@@ -190,8 +190,10 @@ void NominalBank::expect(std::size_t count, const CauseLibrary& library) {
   }
 }
 
-NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<const RecordedMotion> recordings,
-                    const RecordedMotion& alone, const Progress& progress) {
+namespace {
+
+NominalBank bank_with(ModelSource& source, const CauseLibrary& library, std::span<const RecordedMotion> recordings,
+                      const RecordedMotion& alone, const Progress& progress) {
   NominalBank bank;
   const std::span<const RecordedMotion> all = recordings.empty() ? std::span(&alone, 1) : recordings;
   std::vector<std::unique_ptr<RecordingModel>> models;
@@ -228,6 +230,19 @@ NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<
   for (std::size_t i = 0; i < bank.recordings.size(); ++i) {
     if (auto power = models[i]->power(models[i]->own_departures(bank.prior, bank.recordings[i])))
       bank.powers.push_back(std::move(*power));
+  }
+  return bank;
+}
+
+}  // namespace
+
+NominalBank bank_of(ModelSource& source, const CauseLibrary& library, std::span<const RecordedMotion> recordings,
+                    const RecordedMotion& alone, const Progress& progress) {
+  NominalBank bank = bank_with(source, library, recordings, alone, progress);
+  // A recording alone may have a gap, which makes its innovations depend on each other too.
+  while (const auto interval_s = recordings.empty() ? std::optional<double>() : source.thin()) {
+    bank = bank_with(source, library, recordings, alone, progress);
+    bank.interval_s = *interval_s;
   }
   return bank;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct NominalBank {
   Leads leads;
   std::vector<Likelihood> recordings{};
   ColumnScatter scatter{};
+  std::optional<double> interval_s{};  ///< ModelSource::thin()
 
   [[nodiscard]] Floor floor() const;  ///< of the noise power of all channels together
   /// Prior of `count` other recordings that are judged together.

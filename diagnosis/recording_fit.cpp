@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "diagnosis/limits.h"
 
@@ -116,9 +117,10 @@ Eigen::VectorXd values_within(const CauseLibrary& library, const Eigen::VectorXd
 }
 
 FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrary& library,
-                                 const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
+                                 identify::RecordedMotion recording, const identify::FilterNoises& noises,
                                  unsigned threads)
-    : library_(library), filter_(layout, library.parameters, recording, noises, threads),
+    : library_(library), recorded_(std::move(recording)),
+      filter_(layout, library.parameters, recorded_, noises, threads),
       columns_(static_cast<std::size_t>(library.columns())) {
   std::iota(columns_.begin(), columns_.end(), Eigen::Index{0});
   filter_.leave_out_diverging(filter_.start());
@@ -264,8 +266,15 @@ void FilteredSource::refine(std::size_t round, std::span<const Eigen::VectorXd> 
     }
     for (std::size_t i = 0; i < count; ++i) of_noise.push_back({&nominals_[i]->filter(), &passes[i]});
     noises_ = identify::fit_noises(of_noise, noises_, threads_).noises;
+    correlation_ = identify::least_correlation(of_noise, noises_);
   }
   for (FittedRecording* one : nominals_) one->filter().set_noises(noises_);
+}
+
+std::optional<double> FilteredSource::thin() {
+  if (correlation_ < identify::kDependent || interval_ + 1 == identify::kIntervals_s.size()) return std::nullopt;
+  nominals_.clear();
+  return identify::kIntervals_s[++interval_];
 }
 
 std::unique_ptr<RecordingModel> FilteredSource::compared(const identify::RecordedMotion& recording,

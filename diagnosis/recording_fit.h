@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "diagnosis/causes.h"
+#include "diagnosis/limits.h"
 #include "gap/verdict/diagnosis.h"
 #include "identify/filter/noise_fit.h"
 
@@ -172,6 +173,11 @@ class ModelSource : public NotCopied {
   /// Fits what the recordings share beside the vehicle (noises) to its nominal models, each at its departures,
   /// before they are linearised for the `round`-th time from 0 on.
   virtual void refine(std::size_t round, std::span<const Eigen::VectorXd> at) = 0;
+  /// Takes fewer readings where those of the refined models depend on each other: filtered, averaged or
+  /// interpolated ones say the same several times, and a diagnosis would be too sure. Returns the time between the
+  /// readings of a channel that are used from now on, s, by nominal models that are to be made anew; nullopt: as
+  /// before.
+  virtual std::optional<double> thin() { return std::nullopt; }
   /// A recording that is compared with a nominal vehicle of these departures.
   [[nodiscard]] virtual std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                                  const Eigen::VectorXd& nominal) const = 0;
@@ -187,14 +193,13 @@ class ModelSource : public NotCopied {
 [[nodiscard]] Eigen::VectorXd values_within(const CauseLibrary& library, const Eigen::VectorXd& start,
                                             const Eigen::VectorXd& at);
 
-/// A recording with the filter that follows it. The recording and the library must outlive it.
+/// A recording with the filter that follows it. The library must outlive it.
 class FittedRecording final : public RecordingModel {
  public:
   /// Throws std::invalid_argument in words when commands or readings are missing, and where the layout cannot
   /// follow the recording.
-  FittedRecording(const config::Layout& layout, const CauseLibrary& library,
-                  const identify::RecordedMotion& recording, const identify::FilterNoises& noises,
-                  unsigned threads);
+  FittedRecording(const config::Layout& layout, const CauseLibrary& library, identify::RecordedMotion recording,
+                  const identify::FilterNoises& noises, unsigned threads);
 
   bool hold(const Eigen::VectorXd& at) override;
   [[nodiscard]] Eigen::VectorXd within(const Eigen::VectorXd& at) const override {
@@ -224,6 +229,7 @@ class FittedRecording final : public RecordingModel {
   }
 
   const CauseLibrary& library_;
+  identify::RecordedMotion recorded_;
   identify::FilteredReplay filter_;
   std::vector<Eigen::Index> columns_;
   std::optional<identify::FilterPass> held_;
@@ -238,9 +244,11 @@ class FilteredSource final : public ModelSource {
 
   [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override;
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
+  std::optional<double> thin() override;
   /// A recording followed with the present noises, its gains not held.
   [[nodiscard]] std::unique_ptr<FittedRecording> fitted(const identify::RecordedMotion& recording) const {
-    return std::make_unique<FittedRecording>(layout_, library_, recording, noises_, threads_);
+    return std::make_unique<FittedRecording>(
+        layout_, library_, identify::thinned(recording, identify::kIntervals_s[interval_]), noises_, threads_);
   }
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const override;
@@ -253,7 +261,9 @@ class FilteredSource final : public ModelSource {
   const config::Layout& layout_;
   const CauseLibrary& library_;
   unsigned threads_;
+  std::size_t interval_ = kFirstInterval;  ///< place among the intervals that are tried
   identify::FilterNoises noises_;
+  double correlation_ = 0;                  ///< of neighbouring readings, where noises_ were fitted
   std::vector<FittedRecording*> nominals_;  ///< those that nominal() made
 };
 

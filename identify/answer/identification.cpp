@@ -3,16 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "base/angles.h"
 #include "identify/answer/prediction.h"
-#include "identify/answer/refinement.h"
 #include "identify/conventions/conventions.h"
+#include "identify/filter/noise_fit.h"
 
 namespace navcal::identify {
 namespace {
@@ -26,10 +29,6 @@ constexpr double kWorse = 1.01;           ///< likewise: the fit has made it wor
 constexpr std::size_t kFewestStarts = 3;  ///< of a root mean square
 constexpr double kFarther = 1.5;          ///< errors of held-out predictions after over before
 constexpr double kFewPerChannel = 20;
-/// Of readings, s. Filtered or interpolated ones say less than their number: what they call the vehicle's is then
-/// not what one reading a second says, and the thinner ones count.
-constexpr std::array kIntervals_s{0.3, 1.0, 3.0};
-constexpr double kContradicted = 2.5;  ///< contradiction() of chance: 1 +- 0.3 for twenty numbers
 
 using Parameters = PredictionErrorProblem::Parameters;
 
@@ -59,21 +58,16 @@ std::vector<ChannelFit> channels_of_fit(const PredictionErrorProblem& problem, c
   for (std::size_t c = 0; c < kChannels; ++c) {
     const auto channel = static_cast<Channel>(c);
     ChannelFit fit{channel, 0, problem.noises().factor[c], 0};
-    double products = 0, squares = 0;
+    FilteredReplay::Neighbours neighbours;
     for (std::size_t r = 0; r < problem.filters().size(); ++r) {
-      const auto& readings = problem.filters()[r].readings();
-      double before = 0;
-      for (std::size_t i = 0; i < readings.size(); ++i) {
-        if (readings[i].channel != channel) continue;
-        const double white = estimate.point.passes[r].readings[i].white;
-        products += before * white;
-        squares += white * white;
-        before = white;
-        ++fit.readings;
-      }
+      const auto own = problem.filters()[r].neighbours(estimate.point.passes[r], c);
+      neighbours.count += own.count;
+      neighbours.squares += own.squares;
+      neighbours.products += own.products;
     }
-    if (fit.readings == 0) continue;
-    fit.correlation = squares > 0 ? products / squares : 0;
+    if (neighbours.count == 0) continue;
+    fit.readings = static_cast<std::size_t>(neighbours.count);
+    fit.correlation = neighbours.correlation();
     all.push_back(fit);
   }
   return all;
@@ -125,11 +119,7 @@ void warn_of_fit(const PredictionErrorProblem& problem, const Estimate& estimate
           "{}: the vehicle follows its commands {:.2f} s {} than the layout and the recording's times say",
           problem.filters()[r].recording().name, std::abs(delay_s), delay_s > 0 ? "later" : "earlier"));
   }
-  if (answer.interval_s > 0)
-    answer.warnings.push_back(
-        fmt::format("neighbouring readings are not independent (filtered or interpolated?): one in {:g} s of each "
-                    "channel is used",
-                    answer.interval_s));
+  if (answer.interval_s > 0) answer.warnings.push_back(thinned_warning(answer.interval_s));
   std::string poor, far, bounds;
   for (const ChannelFit& fit : answer.channels) {
     if (static_cast<double>(fit.readings) < kFewPerChannel || fit.noise_scale < kPoorFit) continue;
@@ -201,47 +191,41 @@ void judge_predictions(const IdentifyRequest& request, Identification& answer) {
   }
 }
 
-/// Replaces the estimate by parameters that predict the recordings better, unless a controller steers the vehicle.
-void refine(const IdentifyRequest& request, PredictionErrorProblem& problem, Estimate& found,
-            Identification& answer, const FitProgress& progress) {
-  for (std::size_t r = 0; r < problem.filters().size(); ++r)
-    if (std::abs(delay_of(problem, found, r)) > kLate) return;
-  const Eigen::VectorXd values = found.unknowns.head(std::ssize(problem.parameters()));
-  try {
-    const Prediction of =
-        predict({with_values(request.prior, problem.parameters(), values), request.recordings, request.recordings},
-                [](double) {});
-    if (of.is_steered || of.errors.back().starts < kFewestStarts) return;
-    progress("predictions", 0);
-    const auto there =
-        refined(request.prior, problem.parameters(), values, request.recordings, request.settings.threads);
-    if (!there || there->error_ratio >= 1) return;
-    found = estimate_at(problem, there->parameters, there->covariance, found, progress);
-    answer.warnings.push_back(fmt::format(
-        "the numbers are those that predict the recordings best, from every measured state over 2 to 60 s: their "
-        "errors are {:.0f} % of what the filter's numbers leave",
-        100 * there->error_ratio));
-  } catch (const std::invalid_argument&) {
-    // The recordings do not measure what predictions begin with.
-  }
-}
-
-/// A problem with the recordings that it holds.
+/// A problem with the recordings that it holds, and what fits them.
 struct Thinned {
+  double interval_s = 0;
   std::vector<RecordedMotion> recordings;
   std::unique_ptr<PredictionErrorProblem> problem;
   std::size_t left_out = 0;
+  Estimate found;
 };
 
-Thinned thinned_problem(const IdentifyRequest& request, const std::vector<Parameter>& parameters,
-                        double interval_s) {
-  Thinned all;
-  for (const RecordedMotion& recording : request.recordings)
-    all.recordings.push_back(thinned(recording, interval_s));
-  all.problem =
-      std::make_unique<PredictionErrorProblem>(request.prior, parameters, all.recordings, request.settings);
-  all.left_out = all.problem->leave_out_diverging(all.problem->start());
-  return all;
+/// Readings that hardly depend on each other, and what they tell.
+Thinned fitted(const IdentifyRequest& request, const std::vector<Parameter>& parameters,
+               const FitProgress& progress) {
+  std::optional<Thinned> before;
+  for (const double interval_s : kIntervals_s) {
+    Thinned all;
+    all.interval_s = interval_s;
+    for (const RecordedMotion& recording : request.recordings)
+      all.recordings.push_back(thinned(recording, interval_s));
+    all.problem =
+        std::make_unique<PredictionErrorProblem>(request.prior, parameters, all.recordings, request.settings);
+    all.left_out = all.problem->leave_out_diverging(all.problem->start());
+    if (before) {
+      all.found = estimate_from(*all.problem, before->found.unknowns.head(std::ssize(parameters)), progress);
+      all.found.iterations += before->found.iterations;
+    } else {
+      all.found = estimate(*all.problem, progress);
+    }
+    std::vector<FollowedRecording> followed;
+    for (std::size_t r = 0; r < all.recordings.size(); ++r)
+      followed.push_back({&all.problem->filters()[r], &all.found.point.passes[r]});
+    const double correlation = least_correlation(followed, all.problem->noises());
+    before = std::move(all);
+    if (correlation < kDependent) break;
+  }
+  return std::move(*before);
 }
 
 }  // namespace
@@ -252,22 +236,12 @@ Identification identify(const IdentifyRequest& request, const FitProgress& progr
     throw std::invalid_argument(
         "the layout states no uncertain number: beside each number that the recordings shall tell, KEY_std states "
         "its standard error, or KEY_range its range");
-  Thinned used = thinned_problem(request, parameters, 0);
+  Thinned used = fitted(request, parameters, progress);
   Identification answer;
-  Estimate found = estimate(*used.problem, progress);
+  answer.interval_s = used.interval_s;
+  Estimate& found = used.found;
   const auto count = std::ssize(parameters);
-  for (const double interval_s : kIntervals_s) {
-    Thinned thinner = thinned_problem(request, parameters, interval_s);
-    const Eigen::VectorXd there = found.unknowns.head(count);
-    if (contradiction(*thinner.problem, there, progress) < kContradicted) break;
-    const int steps = found.iterations;
-    found = estimate_from(*thinner.problem, there, progress);
-    found.iterations += steps;
-    used = std::move(thinner);
-    answer.interval_s = interval_s;
-  }
   PredictionErrorProblem& problem = *used.problem;
-  if (answer.interval_s > 0) refine(request, problem, found, answer, progress);
   for (std::string& odd : problem.oddities()) answer.warnings.push_back(std::move(odd));
   for (const Convention& wrong : check_conventions(request.prior, request.recordings, [](double) {}).found)
     answer.warnings.push_back(fmt::format("{} of {}? {}", wrong.name, wrong.what, wrong.sentence));

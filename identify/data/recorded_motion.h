@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -64,6 +65,11 @@ struct RecordedMotion {
     return channels[static_cast<std::size_t>(channel)];
   }
   [[nodiscard]] bool has(Channel channel) const { return !(*this)[channel].empty(); }
+  /// Whether a channel has two readings that differ.
+  [[nodiscard]] bool varies(std::size_t channel) const {
+    return std::ranges::adjacent_find(channels[channel], std::ranges::not_equal_to{}, &Reading::value) !=
+           channels[channel].end();
+  }
 };
 
 /// States the Earth's field of a recording: north, east, down.

@@ -97,10 +97,7 @@ bool FilterModel::is_driven_as(const FilterModel& other) const {
          get(calibration_, Nuisance::actuator_delay) == get(other.calibration_, Nuisance::actuator_delay);
 }
 
-bool FilterModel::feels_forces(Channel channel) const {
-  return is_force(channel) ||
-         (channel <= Channel::water_z && describe(channel).unit.ends_with("/s") && age_of(channel) != 0);
-}
+bool FilterModel::feels_forces(Channel channel) const { return is_force(channel) || age_of(channel) != 0; }
 
 bool FilterModel::is_prompt() const {
   constexpr auto kFirst = static_cast<Eigen::Index>(Nuisance::imu_delay);
@@ -113,14 +110,19 @@ double FilterModel::age_of(Channel channel) const {
 }
 
 MotionPoint FilterModel::before(MotionPoint point, double age_s) const {
-  sim::Body& body = point.body;
-  const Eigen::Vector3d v = body.velocity.head<3>(), omega = body.velocity.tail<3>();
-  const double sr = std::sin(body.euler_rad.x()), cr = std::cos(body.euler_rad.x());
-  const double turn = (sr * omega.y() + cr * omega.z()) / std::cos(body.euler_rad.y());
-  body.position_m -= age_s * (world_from_body(body.euler_rad) * v + current());
-  body.euler_rad -= age_s * Eigen::Vector3d(omega.x() + std::sin(body.euler_rad.y()) * turn,
-                                            cr * omega.y() - sr * omega.z(), turn);
-  body.velocity -= age_s * point.acceleration;
+  // Midpoint rule: a vehicle that starts to turn is not yet turning as fast.
+  sim::Body middle = point.body;
+  const auto back = [&](sim::Body& body, const sim::Body& by, double seconds) {
+    const Eigen::Vector3d v = by.velocity.head<3>(), omega = by.velocity.tail<3>();
+    const double sr = std::sin(by.euler_rad.x()), cr = std::cos(by.euler_rad.x());
+    const double turn = (sr * omega.y() + cr * omega.z()) / std::cos(by.euler_rad.y());
+    body.position_m -= seconds * (world_from_body(by.euler_rad) * v + current());
+    body.euler_rad -= seconds * Eigen::Vector3d(omega.x() + std::sin(by.euler_rad.y()) * turn,
+                                                cr * omega.y() - sr * omega.z(), turn);
+    body.velocity -= seconds * point.acceleration;
+  };
+  back(middle, point.body, age_s / 2);
+  back(point.body, middle, age_s);
   return point;
 }
 

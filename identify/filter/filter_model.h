@@ -58,7 +58,7 @@ class FilterModel {
                                             const FilterState& to, const Acceleration& over, double step_s) const;
   /// Whether the same vehicle is under the same actuators at the same times.
   [[nodiscard]] bool is_driven_as(const FilterModel& other) const;
-  /// Whether a channel's readings depend on the acceleration: an accelerometer's, and a velocity's that is late.
+  /// Whether a channel's readings depend on the acceleration: an accelerometer's, and all that are late.
   [[nodiscard]] bool feels_forces(Channel channel) const;
   [[nodiscard]] bool feels_tilt_as(const FilterModel& other) const { return errors_.feels_tilt_as(other.errors_); }
   [[nodiscard]] Eigen::Vector3d current() const { return current_of(calibration_); }

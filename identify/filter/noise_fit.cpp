@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identify/filter/noise_fit.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -11,18 +13,20 @@
 namespace navcal::identify {
 namespace {
 
-constexpr int kNoiseSteps = 8;
+constexpr int kNoiseSteps = 40;
 constexpr double kNoiseSettled = 1, kLogStep = 0.01, kLongestLog = 2;  ///< of a logarithm
+constexpr double kLonger = 1.5, kShorter = 0.5;                        ///< a step than the one before
 constexpr double kDisturbanceStd = 2, kFactorStd = 1;                  ///< of the priors, of logarithms
 constexpr double kWorthLonger = 4;                                     ///< twice a log likelihood
 
-/// The logarithms of the sizes that are fitted.
+/// The logarithms of the sizes that are fitted. A channel that always reads the same (zero, of what was not
+/// measured) tells nothing of its noise.
 class Sizes {
  public:
   explicit Sizes(std::span<const FollowedRecording> recordings) {
     for (std::size_t c = 0; c < kChannels; ++c) {
-      const auto has = [&](const FollowedRecording& one) { return !one.filter->recording().channels[c].empty(); };
-      if (std::any_of(recordings.begin(), recordings.end(), has)) channels_.push_back(c);
+      const auto varies = [&](const FollowedRecording& one) { return one.filter->recording().varies(c); };
+      if (std::any_of(recordings.begin(), recordings.end(), varies)) channels_.push_back(c);
     }
   }
   [[nodiscard]] Eigen::VectorXd of(FilterNoises noises) const {
@@ -91,6 +95,9 @@ NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterN
   Eigen::VectorXd logs = sizes.of(start);
   Filtered here = filtered(recordings, start);
   double cost = cost_of(here, logs);
+  // What hardly matters goes too far and comes back; with one length for all, the others would wait for it.
+  Eigen::VectorXd last = Eigen::VectorXd::Zero(logs.size());
+  Eigen::ArrayXd longest = Eigen::ArrayXd::Constant(logs.size(), kLongestLog);
   for (int step = 0; step < kNoiseSteps; ++step) {
     const Eigen::Index n = logs.size(), rows = here.innovation.size();
     Eigen::MatrixXd of_variance(rows, n), of_innovation(rows, n);
@@ -109,8 +116,10 @@ NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterN
     Eigen::MatrixXd information =
         of_variance.transpose() * of_variance / 2 + of_innovation.transpose() * of_innovation;
     information.diagonal() += precision;
-    Eigen::VectorXd change = -information.ldlt().solve(gradient);
-    change *= std::min(1.0, kLongestLog / std::max(change.cwiseAbs().maxCoeff(), 1e-9));
+    const Eigen::VectorXd wanted = -information.ldlt().solve(gradient);
+    longest = (wanted.array() * last.array() < 0).select(kShorter * longest, (kLonger * longest).min(kLongestLog));
+    Eigen::VectorXd change = wanted.array().max(-longest).min(longest);
+    last = change;
     double gain = -1;
     for (int halving = 0; halving < 6 && gain < 0; ++halving, change /= 2) {
       const Eigen::VectorXd next = logs + change;
@@ -137,6 +146,30 @@ NoiseFit fit_noises_and_tau(std::span<const FollowedRecording> recordings, const
     if (fit.cost < best.cost - kWorthLonger || tau_s == 1) best = fit;
   }
   return best;
+}
+
+double least_correlation(std::span<const FollowedRecording> recordings, const FilterNoises& noises) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [filter, pass] : recordings) {
+    FilterPass again = *pass;
+    filter->filter_again(*pass, noises, again.readings);
+    double sum = 0, count = 0;
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      if (!filter->recording().varies(c)) continue;
+      const auto neighbours = filter->neighbours(again, c);
+      sum += neighbours.count * neighbours.correlation();
+      count += neighbours.count;
+    }
+    if (count > 0) least = std::min(least, sum / count);
+  }
+  return least;
+}
+
+std::string thinned_warning(double interval_s) {
+  return fmt::format(
+      "neighbouring readings are not independent (filtered or interpolated?): one in {:g} s of each channel is "
+      "used",
+      interval_s);
 }
 
 }  // namespace navcal::identify

@@ -188,36 +188,4 @@ Estimate estimate_from(PredictionErrorProblem& problem, const Eigen::VectorXd& p
   return settled(problem, settled_at(problem, unknowns_with(problem, parameters), progress), 0, progress);
 }
 
-Estimate estimate_at(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
-                     const Eigen::MatrixXd& covariance, const Estimate& from, const FitProgress& progress) {
-  Estimate estimate = from;
-  estimate.point = settled_at(problem, unknowns_with(problem, parameters), progress);
-  if (estimate.point.passes.empty()) return from;
-  estimate.unknowns = estimate.point.unknowns;
-  estimate.covariance = covariance;
-  estimate.stds = covariance.diagonal().cwiseSqrt();
-  return estimate;
-}
-
-double contradiction(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
-                     const FitProgress& progress) {
-  problem.set_noises(FilterNoises{});
-  Point point = settled_at(problem, unknowns_with(problem, parameters), progress);
-  if (point.passes.empty()) return 0;
-  point = problem.minimise(std::move(point), kFewSteps / 2, Parameters::fixed, progress, "instruments");
-  const auto linear = problem.linearise(point, Parameters::free);
-  Eigen::MatrixXd information = linear.information;
-  information.diagonal() += problem.precision();
-  Eigen::VectorXd pull = linear.score;
-  pull.head(parameters.size()) -=
-      problem.precision().head(parameters.size()).cwiseProduct(parameters - prior_values(problem.parameters()));
-  pull.tail(pull.size() - parameters.size()).setZero();
-  const Eigen::MatrixXd inverse = inverse_of(information);
-  // As many parameters as the thinned readings tell.
-  const double told = inverse.cwiseProduct(linear.information.transpose())
-                          .topLeftCorner(parameters.size(), parameters.size())
-                          .sum();
-  return pull.dot(inverse * pull) / std::max(told, 1.0);
-}
-
 }  // namespace navcal::identify

@@ -113,16 +113,4 @@ struct Estimate {
 [[nodiscard]] Estimate estimate_from(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
                                      const FitProgress& progress);
 
-/// Parameters that were found in another way, with their covariance; instruments and disturbances by the problem.
-/// `from` where the vehicle leaves all bounds.
-[[nodiscard]] Estimate estimate_at(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
-                                   const Eigen::MatrixXd& covariance, const Estimate& from,
-                                   const FitProgress& progress);
-
-/// How far an estimate from all readings is off by thinned ones, which `problem` has: the fall of its cost (twice
-/// a log posterior) that its derivatives promise for other parameters, over what chance alone gives, whose mean is
-/// about 1. The noises of the problem are fitted to the thinned readings.
-[[nodiscard]] double contradiction(PredictionErrorProblem& problem, const Eigen::VectorXd& parameters,
-                                   const FitProgress& progress);
-
 }  // namespace navcal::identify

@@ -11,6 +11,26 @@
 namespace navcal::diagnosis {
 namespace {
 
+bool says_readings_depend(const gap::Diagnosis& answer) {
+  return std::ranges::any_of(answer.remarks, [](const std::string& remark) {
+    return remark.starts_with("neighbouring readings are not independent");
+  });
+}
+
+/// Each reading a mean of seven, as a logger makes them that filters before it records.
+identify::RecordedMotion averaged(identify::RecordedMotion motion) {
+  constexpr std::size_t kBeside = 3;
+  for (auto& channel : motion.channels) {
+    const std::vector<identify::Reading> raw = channel;
+    for (std::size_t i = kBeside; i + kBeside < raw.size(); ++i) {
+      channel[i].value = 0;
+      for (std::size_t k = i - kBeside; k <= i + kBeside; ++k)
+        channel[i].value += raw[k].value / (2 * kBeside + 1);
+    }
+  }
+  return motion;
+}
+
 TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   const auto of = micro();
   const gap::Diagnosis answer = diagnosis_of(of, changed(of.prior, "thrust_scale", "thruster.2", {-0.2}));
@@ -20,8 +40,25 @@ TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   EXPECT_EQ(answer.effects[0].of, "thruster.2");
   const auto& estimate = answer.effects[0].parameters.at(0);
   EXPECT_NEAR(estimate.value, -0.2, 4 * estimate.std_error);
+  EXPECT_FALSE(says_readings_depend(answer));
   // The power of noise that most readings are hides so small a gap; the held-out recording is better described.
   EXPECT_LT(answer.gap.pooled.after, answer.gap.pooled.before);
+}
+
+// Means say the same several times. Taken for independent, they made a nominal ship late by its Doppler log.
+TEST(DiagnoseLayout, ReadingsThatWereAveragedAreThinned) {
+  const auto of = micro();
+  const gap::Diagnosis answer =
+      diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
+               {averaged(recording(of, changed(of.prior, "thrust_scale", "thruster.2", {-0.5}), 1)),
+                {},
+                {averaged(recording(of, of.prior, 11)), averaged(recording(of, of.prior, 31))},
+                {}},
+               [](std::string_view, double) {});
+  EXPECT_TRUE(says_readings_depend(answer));
+  ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
+  ASSERT_EQ(answer.effects.size(), 1U);
+  EXPECT_EQ(answer.effects[0].words(), "thrust_scale of thruster.2");
 }
 
 // So large a gap was "no gap": the nominal vehicle's tolerances took it up, hundreds of their errors from zero.
@@ -75,7 +112,10 @@ gap::Diagnosis diagnosis_of_changed(const identify::VehicleCase& of,
     return motion;
   };
   return diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
-                  {recorded(1, true), {}, {recorded(11, false), recorded(31, false)}, {recorded(21, true)}},
+                  {recorded(1, true),
+                   {},
+                   {recorded(11, false), recorded(31, false)},
+                   {recorded(21, true), recorded(41, true)}},
                   [](std::string_view, double) {});
 }
 
