@@ -25,7 +25,9 @@ constexpr std::string_view kUnit = "noise power";
 Floor floor_of_channel(std::span<const RecordingPower> nominal, std::size_t channel) {
   std::vector<double> powers;
   for (const RecordingPower& one : nominal) {
-    if (one.of_channel[channel] >= 0) powers.push_back(one.of_channel[channel]);
+    const double power = one.of_channel[channel], readings = one.readings_of_channel[channel];
+    if (power < 0) continue;
+    powers.push_back(readings > 0 ? (readings * power + kFewReadings) / (readings + kFewReadings) : power);
   }
   return floor_of(powers);
 }

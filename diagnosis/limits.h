@@ -63,6 +63,9 @@ inline constexpr double kDampingStep = 8, kMostDamping = 1000;
 /// which has many more readings, up to the smaller one.
 inline constexpr double kNominalChance = 0.02, kNominalScatter_sigma = 5, kNominalFactor = 2,
                         kNominalPowerFactor = 1.12;
+/// The power of a channel in a nominal recording counts as if so many more readings had the power 1 that fitted
+/// noises lead to: the only reading of a channel may happen to be right.
+inline constexpr double kFewReadings = 20;
 /// An innovation counts at most so much in the power of its channel: single wild readings are no louder channel.
 inline constexpr double kWild_sigma = 3;
 /// Length of the blocks of time that a closure's interval is drawn from, s: longer than the filter's memory of

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "diagnosis/limits.h"
 
@@ -117,6 +118,25 @@ TEST(LayoutVerdict, OneNominalRecordingTellsNothingOfTheScatterBetweenRecordings
   EXPECT_NE(searched.verdict().verdict, gap::Verdict::no_gap);
   searched.bank.powers.resize(1);
   EXPECT_EQ(searched.verdict().verdict, gap::Verdict::no_gap);
+}
+
+// The one fix of each nominal dive was right to a hundredth of its noise, and then every dive had a louder fix.
+TEST(LayoutVerdict, TheOnlyReadingOfAChannelSetsNoFloor) {
+  RecordingPower nominal;
+  nominal.of_channel.fill(1);
+  nominal.readings_of_channel.fill(1000);
+  const auto rate = static_cast<std::size_t>(identify::Channel::rate_x);
+  const auto fix = static_cast<std::size_t>(identify::Channel::east_velocity);
+  nominal.of_channel[fix] = 3e-4;
+  nominal.readings_of_channel[fix] = 1;
+  RecordingPower other = nominal;
+  other.of_channel[fix] = 4;
+  const std::vector<RecordingPower> three(3, nominal);
+  EXPECT_TRUE(louder_channels(other, three).empty());
+  other.of_channel[rate] = 3;
+  const auto louder = louder_channels(other, three);
+  ASSERT_EQ(louder.size(), 1U);
+  EXPECT_EQ(louder[0].channel, "roll rate");
 }
 
 TEST(LayoutVerdict, NoGapSaysWhatWouldHaveStoodOut) {
