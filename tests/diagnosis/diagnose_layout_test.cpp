@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "tests/diagnosis/micro_case.h"
 
@@ -17,15 +18,17 @@ bool says_readings_depend(const gap::Diagnosis& answer) {
   });
 }
 
-/// Each reading a mean of seven, as a logger makes them that filters before it records.
-identify::RecordedMotion averaged(identify::RecordedMotion motion) {
-  constexpr std::size_t kBeside = 3;
+/// With noise that a filter before the logger made last for half a second.
+identify::RecordedMotion filtered(identify::RecordedMotion motion) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
   for (auto& channel : motion.channels) {
-    const std::vector<identify::Reading> raw = channel;
-    for (std::size_t i = kBeside; i + kBeside < raw.size(); ++i) {
-      channel[i].value = 0;
-      for (std::size_t k = i - kBeside; k <= i + kBeside; ++k)
-        channel[i].value += raw[k].value / (2 * kBeside + 1);
+    double noise = 0, before_s = 0;
+    for (identify::Reading& reading : channel) {
+      const double left = std::exp(-(reading.time_s - before_s) / 0.5);
+      noise = left * noise + 3 * reading.std * std::sqrt(1 - left * left) * normal(random);
+      before_s = reading.time_s;
+      reading.value += noise;
     }
   }
   return motion;
@@ -45,14 +48,14 @@ TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   EXPECT_LT(answer.gap.pooled.after, answer.gap.pooled.before);
 }
 
-// Means say the same several times. Taken for independent, they made a nominal ship late by its Doppler log.
-TEST(DiagnoseLayout, ReadingsThatWereAveragedAreThinned) {
+// They say the same several times. Taken for independent, they made a nominal ship late by its Doppler log.
+TEST(DiagnoseLayout, ReadingsWithLastingNoiseAreThinned) {
   const auto of = micro();
   const gap::Diagnosis answer =
       diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
-               {averaged(recording(of, changed(of.prior, "thrust_scale", "thruster.2", {-0.5}), 1)),
+               {filtered(recording(of, changed(of.prior, "thrust_scale", "thruster.2", {-0.5}), 1)),
                 {},
-                {averaged(recording(of, of.prior, 11)), averaged(recording(of, of.prior, 31))},
+                {filtered(recording(of, of.prior, 11)), filtered(recording(of, of.prior, 31))},
                 {}},
                [](std::string_view, double) {});
   EXPECT_TRUE(says_readings_depend(answer));
@@ -89,7 +92,7 @@ TEST(DiagnoseLayout, ALateCompassIsNamed) {
   const auto late = [&](std::uint64_t seed) {
     identify::RecordedMotion motion = recording(of, of.prior, seed);
     for (identify::Reading& heading : motion.channels[static_cast<std::size_t>(identify::Channel::heading)])
-      heading.time_s += 0.2;
+      heading.time_s += 0.15;
     return motion;
   };
   const gap::Diagnosis answer =
@@ -99,7 +102,7 @@ TEST(DiagnoseLayout, ALateCompassIsNamed) {
   ASSERT_EQ(answer.verdict, gap::Verdict::explained) << answer.sentence;
   ASSERT_EQ(answer.effects.size(), 1U);
   EXPECT_EQ(answer.effects[0].name, "compass_lag");
-  EXPECT_NEAR(answer.effects[0].parameters.at(0).value, 0.2, 0.03);
+  EXPECT_NEAR(answer.effects[0].parameters.at(0).value, 0.15, 0.02);
 }
 
 /// Diagnoses a vehicle without a gap whose recordings, nominal ones apart, were changed afterwards.
