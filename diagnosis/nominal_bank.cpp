@@ -174,17 +174,20 @@ JointPrior NominalBank::prior_of(std::size_t count) const {
   return prior_from(recordings, scatter, static_cast<Eigen::Index>(modelled(count)));
 }
 
+JointPrior NominalBank::prior_by_others(std::size_t i, std::size_t count) const {
+  std::vector<Likelihood> others = recordings;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+  return prior_from(others, scatter, static_cast<Eigen::Index>(count));
+}
+
 void NominalBank::expect(std::size_t count, const CauseLibrary& library) {
   chance_nats.assign(library.causes.size(), 0);
   count = modelled(count);
   const double more_nats = leads.class_nats * static_cast<double>(count);
   leads.class_nats = std::max(leads.class_nats, std::min(more_nats, leads.named_nats));
   for (std::size_t i = 0; i < recordings.size(); ++i) {
-    std::vector<Likelihood> others = recordings;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const JointPrior prior_by_others = prior_from(others, scatter, static_cast<Eigen::Index>(count));
     const std::vector<Likelihood> alike(count, recordings[i]);
-    const SetEvidence evidence(prior_by_others.of_changes(side_by_side(alike)), library);
+    const SetEvidence evidence(prior_by_others(i, count).of_changes(side_by_side(alike)), library);
     for (std::size_t cause = 0; cause < library.causes.size(); ++cause)
       chance_nats[cause] = std::max(chance_nats[cause], evidence.gain({cause}));
   }
@@ -227,10 +230,10 @@ NominalBank bank_with(ModelSource& source, const CauseLibrary& library, std::spa
   bank.scatter = std::move(scatter);
   bank.prior = bank.prior_of(1);
   bank.expect(1, library);
-  for (std::size_t i = 0; i < bank.recordings.size(); ++i) {
-    if (auto power = models[i]->power(models[i]->own_departures(bank.prior, bank.recordings[i])))
-      bank.powers.push_back(std::move(*power));
-  }
+  std::vector<Eigen::VectorXd> apart;
+  for (std::size_t i = 0; i < bank.recordings.size(); ++i)
+    apart.push_back(models[i]->own_departures(bank.prior_by_others(i), bank.recordings[i]));
+  bank.powers = source.nominal_powers(apart);
   return bank;
 }
 

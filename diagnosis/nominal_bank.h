@@ -52,6 +52,8 @@ struct NominalBank {
   [[nodiscard]] Floor floor() const;  ///< of the noise power of all channels together
   /// Prior of `count` other recordings that are judged together.
   [[nodiscard]] JointPrior prior_of(std::size_t count) const;
+  /// The same of so many recordings like the `i`-th one, by the others.
+  [[nodiscard]] JointPrior prior_by_others(std::size_t i, std::size_t count = 1) const;
   /// Makes `chance_nats` that of so many. Causes that one recording does not tell apart, because its model has
   /// errors, many like it do not either, so `leads.class_nats` grows with their number up to the lead that names.
   void expect(std::size_t count, const CauseLibrary& library);

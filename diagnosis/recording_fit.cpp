@@ -161,15 +161,18 @@ std::optional<RecordingFit> FittedRecording::fit(const Eigen::VectorXd& at) cons
 
 std::optional<RecordingPower> FittedRecording::power(const Eigen::VectorXd& at) const {
   const auto pass = follow(at);
-  if (!pass) return std::nullopt;
+  return pass ? std::optional(power_of(*pass)) : std::nullopt;
+}
+
+RecordingPower FittedRecording::power_of(const identify::FilterPass& pass) const {
   RecordingPower power;
-  power.mean_square = pass->mean_square();
+  power.mean_square = pass.mean_square();
   std::array<double, identify::kChannels> squares{};
   auto& counts = power.readings_of_channel;
-  for (std::size_t i = 0; i < pass->readings.size(); ++i) {
-    if (pass->readings[i].is_settling) continue;
+  for (std::size_t i = 0; i < pass.readings.size(); ++i) {
+    if (pass.readings[i].is_settling) continue;
     const auto& reading = filter_.readings()[i];
-    const double square = pass->readings[i].white * pass->readings[i].white;
+    const double square = pass.readings[i].white * pass.readings[i].white;
     const auto channel = static_cast<std::size_t>(reading.channel);
     squares[channel] += std::min(square, kWild_sigma * kWild_sigma);
     counts[channel] += 1;
@@ -269,6 +272,29 @@ void FilteredSource::refine(std::size_t round, std::span<const Eigen::VectorXd> 
     correlation_ = identify::least_correlation(of_noise, noises_);
   }
   for (FittedRecording* one : nominals_) one->filter().set_noises(noises_);
+}
+
+std::vector<RecordingPower> FilteredSource::nominal_powers(std::span<const Eigen::VectorXd> at) const {
+  std::vector<identify::FilterPass> passes;
+  std::vector<const FittedRecording*> followed;
+  for (std::size_t i = 0; i < nominals_.size(); ++i) {
+    if (auto pass = nominals_[i]->follow(at[i])) {
+      passes.push_back(std::move(*pass));
+      followed.push_back(nominals_[i]);
+    }
+  }
+  std::vector<RecordingPower> powers;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    std::vector<identify::FollowedRecording> others;
+    for (std::size_t k = 0; k < passes.size() && others.size() < kNoiseFrom; ++k)
+      if (k != i) others.push_back({&followed[k]->filter(), &passes[k]});
+    identify::FilterPass apart = passes[i];
+    if (!others.empty())
+      followed[i]->filter().filter_again(passes[i], identify::fit_noises(others, noises_, threads_).noises,
+                                         apart.readings);
+    powers.push_back(followed[i]->power_of(apart));
+  }
+  return powers;
 }
 
 std::optional<double> FilteredSource::thin() {

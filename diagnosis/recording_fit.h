@@ -178,6 +178,9 @@ class ModelSource : public NotCopied {
   /// readings of a channel that are used from now on, s, by nominal models that are to be made anew; nullopt: as
   /// before.
   virtual std::optional<double> thin() { return std::nullopt; }
+  /// Powers of the nominal recordings, each at its departures, with what they share fitted to the others: what
+  /// fits a recording best says too little of the next one.
+  [[nodiscard]] virtual std::vector<RecordingPower> nominal_powers(std::span<const Eigen::VectorXd> at) const = 0;
   /// A recording that is compared with a nominal vehicle of these departures.
   [[nodiscard]] virtual std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                                  const Eigen::VectorXd& nominal) const = 0;
@@ -214,6 +217,7 @@ class FittedRecording final : public RecordingModel {
   [[nodiscard]] const identify::RecordedMotion& recording() const override { return filter_.recording(); }
   [[nodiscard]] std::vector<std::string> oddities() const override { return filter_.oddities(); }
   [[nodiscard]] std::optional<identify::FilterPass> follow(const Eigen::VectorXd& at) const;
+  [[nodiscard]] RecordingPower power_of(const identify::FilterPass& pass) const;
   /// The derivatives by all columns. nullopt: a vehicle with these departures could not have moved so.
   [[nodiscard]] std::optional<identify::FilterLinearised> linearised(const Eigen::VectorXd& at) const {
     return linearised(at, columns_);
@@ -245,6 +249,7 @@ class FilteredSource final : public ModelSource {
   [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override;
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
   std::optional<double> thin() override;
+  [[nodiscard]] std::vector<RecordingPower> nominal_powers(std::span<const Eigen::VectorXd> at) const override;
   /// A recording followed with the present noises, its gains not held.
   [[nodiscard]] std::unique_ptr<FittedRecording> fitted(const identify::RecordedMotion& recording) const {
     return std::make_unique<FittedRecording>(

@@ -59,6 +59,13 @@ std::unique_ptr<RecordingModel> SteadySource::nominal(const identify::RecordedMo
   return made;
 }
 
+std::vector<RecordingPower> SteadySource::nominal_powers(std::span<const Eigen::VectorXd> at) const {
+  std::vector<RecordingPower> powers;
+  for (std::size_t i = 0; i < nominals_.size(); ++i)
+    if (auto power = nominals_[i]->power(at[i])) powers.push_back(std::move(*power));
+  return powers;
+}
+
 void SteadySource::refine(std::size_t round, std::span<const Eigen::VectorXd>) {
   if (round > 0) return;
   const auto count = std::ssize(nominals_);

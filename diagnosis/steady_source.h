@@ -24,6 +24,8 @@ class SteadySource final : public ModelSource {
 
   [[nodiscard]] std::unique_ptr<RecordingModel> nominal(const identify::RecordedMotion& recording) override;
   void refine(std::size_t round, std::span<const Eigen::VectorXd> at) override;
+  /// The scatter is in the balances: with what all of them share.
+  [[nodiscard]] std::vector<RecordingPower> nominal_powers(std::span<const Eigen::VectorXd> at) const override;
   [[nodiscard]] std::unique_ptr<RecordingModel> compared(const identify::RecordedMotion& recording,
                                                          const Eigen::VectorXd& nominal) const override;
   [[nodiscard]] std::unique_ptr<RecordingModel> joined(std::span<RecordingModel* const> compared) const override {
