@@ -87,7 +87,7 @@ TEST(DiagnoseLayout, AThrusterThatIsDeadOrReversedIsNamed) {
   }
 }
 
-TEST(DiagnoseLayout, ALateCompassIsNamed) {
+TEST(DiagnoseInstruments, ALateCompassIsNamed) {
   const auto of = micro();
   const auto late = [&](std::uint64_t seed) {
     identify::RecordedMotion motion = recording(of, of.prior, seed);
@@ -123,7 +123,7 @@ gap::Diagnosis diagnosis_of_changed(const identify::VehicleCase& of,
 }
 
 // A third of the instruments' errors that others planted were no candidates.
-TEST(DiagnoseLayout, GyrosThatFeelOtherAxesAreNamed) {
+TEST(DiagnoseInstruments, GyrosThatFeelOtherAxesAreNamed) {
   const auto of = micro();
   const gap::Diagnosis answer = diagnosis_of_changed(of, [](identify::RecordedMotion& motion) {
     const auto rates = [&](identify::Channel channel) -> auto& {
@@ -149,7 +149,7 @@ TEST(DiagnoseLayout, GyrosThatFeelOtherAxesAreNamed) {
   })) << "there is no second yaw gyro";
 }
 
-TEST(DiagnoseLayout, HardIronIsNamedInMicroteslaWhereTheFieldIsKnown) {
+TEST(DiagnoseInstruments, HardIronIsNamedInMicroteslaWhereTheFieldIsKnown) {
   const auto of = micro();
   const gap::Diagnosis answer = diagnosis_of_changed(of, [](identify::RecordedMotion& motion) {
     const double level_uT = std::hypot(18.0, 2.0);
