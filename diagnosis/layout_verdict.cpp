@@ -398,7 +398,7 @@ void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer) {
   const std::string explained_by = is_certain ? names_of(answer.effects) : "the best set of effects";
   if (!is_certain && (!is_left_over || kind == gap::UnknownKind::outside)) {
     reason = not_named.front();
-  } else if (is_certain && !held_out.empty() && closed_ci && (*closed_ci)[1] <= 0) {
+  } else if (is_certain && !held_out.empty() && answer.gap.pooled.closed.value_or(1) <= 0) {
     reason = fmt::format("with {} the held-out recordings do not depart less", explained_by);
   } else if (is_left_over && !louder.empty()) {
     reason = fmt::format("{} leaves {} louder than nominal", explained_by, louder.front().channel);

@@ -277,7 +277,7 @@ void FilteredSource::refine(std::size_t round, std::span<const Eigen::VectorXd> 
 std::vector<RecordingPower> FilteredSource::nominal_powers(std::span<const Eigen::VectorXd> at) const {
   std::vector<identify::FilterPass> passes;
   std::vector<const FittedRecording*> followed;
-  for (std::size_t i = 0; i < nominals_.size(); ++i) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
     if (auto pass = nominals_[i]->follow(at[i])) {
       passes.push_back(std::move(*pass));
       followed.push_back(nominals_[i]);

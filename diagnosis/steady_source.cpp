@@ -61,7 +61,7 @@ std::unique_ptr<RecordingModel> SteadySource::nominal(const identify::RecordedMo
 
 std::vector<RecordingPower> SteadySource::nominal_powers(std::span<const Eigen::VectorXd> at) const {
   std::vector<RecordingPower> powers;
-  for (std::size_t i = 0; i < nominals_.size(); ++i)
+  for (std::size_t i = 0; i < at.size(); ++i)
     if (auto power = nominals_[i]->power(at[i])) powers.push_back(std::move(*power));
   return powers;
 }

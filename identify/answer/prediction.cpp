@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identify/answer/prediction.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 #include "base/angles.h"
@@ -18,8 +21,7 @@ namespace {
 constexpr int kLayoutSteps = 5;  ///< of the layout's vehicle, in one of the grid
 constexpr double kModelStep_s = kGrid_s / kLayoutSteps;
 constexpr std::ptrdiff_t kSlopeSteps = 3;  ///< steps of the grid before and behind, for a derivative
-constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};                   ///< steps of the grid
-constexpr std::array<std::size_t, 6> kOfLayout{20, 50, 100, 200, 400, 600};  ///< likewise, of single errors
+constexpr std::array<std::size_t, 3> kAfter{10, 100, 600};  ///< steps of the grid
 constexpr double kSteered = 3;
 
 /// The body a step later at this velocity, whose derivative is given.
@@ -225,6 +227,23 @@ class Forecast {
   bool is_sound_ = true;
 };
 
+/// Says what is missing.
+std::invalid_argument not_measured(std::span<const Track> tracks) {
+  double attitude = 0, velocity = 0, position = 0, rows = 0;
+  for (const Track& track : tracks) {
+    for (const sim::Body& body : track.bodies) {
+      attitude += body.euler_rad.allFinite() ? 100 : 0;
+      velocity += body.velocity.allFinite() ? 100 : 0;
+      position += body.position_m.allFinite() ? 100 : 0;
+      ++rows;
+    }
+  }
+  return std::invalid_argument(fmt::format(
+      "predictions need attitude, velocity and position for a second on end: they are measured {:.0f}, "
+      "{:.0f} and {:.0f} % of the time (readings more than {:g} s apart are not joined)",
+      attitude / rows, velocity / rows, position / rows, kGap_s));
+}
+
 }  // namespace
 
 Prediction predict(const PredictionRequest& request, const std::function<void(double)>& progress) {
@@ -244,12 +263,6 @@ Prediction predict(const PredictionRequest& request, const std::function<void(do
     Forecast forecast(track.bodies[start]);
     for (std::size_t step = 1; step <= kAfter.back() && track.is_measured(start + step); ++step) {
       forecast.advance(by, track.actuators, kGrid_s * static_cast<double>(start + step - 1));
-      if (std::ranges::find(kOfLayout, step) != kOfLayout.end()) {
-        const sim::Body &by_layout = forecast[Predictor::layout], &measured = track.bodies[start + step];
-        const Eigen::Vector3d apart_m = by_layout.position_m - measured.position_m;
-        all.of_layout.push_back({kGrid_s * static_cast<double>(step), apart_m.x(), apart_m.y(),
-                                 base::wrapped(by_layout.euler_rad.z() - measured.euler_rad.z())});
-      }
       const auto due = std::ranges::find(kAfter, step);
       if (due == kAfter.end()) continue;
       const auto i = static_cast<std::size_t>(due - kAfter.begin());
@@ -270,8 +283,7 @@ Prediction predict(const PredictionRequest& request, const std::function<void(do
       if (judged[t].is_measured(start)) forecast_from(judged[t], start);
     }
   }
-  if (all.errors[0].starts == 0)
-    throw std::invalid_argument("attitude, velocity and position are nowhere measured for a second on end");
+  if (all.errors[0].starts == 0) throw not_measured(judged);
   const auto have = [&](bool Track::*what) {
     return std::ranges::all_of(judged, [&](const Track& track) { return track.*what; });
   };

@@ -27,12 +27,6 @@ struct PredictionErrors {
   Row position_m, heading_rad, depth_m, velocity_m_s;  ///< horizontal position, velocity of the body
 };
 
-/// Error of the layout, so long after one start.
-struct LayoutError {
-  double after_s = 0;
-  double north_m = 0, east_m = 0, heading_rad = 0;
-};
-
 struct PredictionRequest {
   config::Layout layout;
   std::vector<RecordedMotion> recordings;
@@ -42,7 +36,6 @@ struct PredictionRequest {
 
 struct Prediction {
   std::array<PredictionErrors, 3> errors;  ///< after 1, 10 and 60 s
-  std::vector<LayoutError> of_layout;      ///< after 2, 5, 10, 20, 40 and 60 s of each start, as far as measured
   /// Standing still is not three times worse than holding and the regression: errors after 10 and 60 s judge the
   /// vehicle's controller.
   bool is_steered = false;

@@ -6,12 +6,6 @@
 #include "base/rotation.h"
 
 namespace navcal::identify {
-namespace {
-
-constexpr double kGap_s = 2;  ///< between readings, which are interpolated within
-
-}  // namespace
-
 std::vector<double> on_grid(const RecordedMotion& motion, Channel channel, std::size_t rows) {
   std::vector<double> out(rows, kUnknown);
   const auto& readings = motion[channel];

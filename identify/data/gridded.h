@@ -13,6 +13,7 @@
 namespace navcal::identify {
 
 inline constexpr double kGrid_s = 0.1;
+inline constexpr double kGap_s = 2;  ///< between readings, which are interpolated within
 
 /// Readings of a channel at multiples of kGrid_s, interpolated, NaN where none are near; angles are interpolated
 /// without jumps.

@@ -17,6 +17,7 @@ constexpr int kNoiseSteps = 40;
 constexpr double kNoiseSettled = 1, kLogStep = 0.01, kLongestLog = 2;  ///< of a logarithm
 constexpr double kLonger = 1.5, kShorter = 0.5;                        ///< a step than the one before
 constexpr double kDisturbanceStd = 2, kFactorStd = 1;                  ///< of the priors, of logarithms
+constexpr double kLeastShare = 0.01;                                   ///< of the actuators' accelerations
 constexpr double kWorthLonger = 4;                                     ///< twice a log likelihood
 
 /// The logarithms of the sizes that are fitted. A channel that always reads the same (zero, of what was not
@@ -40,14 +41,28 @@ class Sizes {
     for (std::size_t i = 0; i < places.size(); ++i) *places[i] = std::exp(logs[static_cast<Eigen::Index>(i)]);
     return noises;
   }
+  /// No layout is perfect, and a filter that takes it to be is linear nowhere: disturbances are not below a share
+  /// of what the actuators do.
+  [[nodiscard]] Eigen::VectorXd least(std::span<const FollowedRecording> recordings) const {
+    sim::Vector6 power = sim::Vector6::Zero();
+    for (const auto& [filter, pass] : recordings)
+      power += filter->actuator_power(*pass) / static_cast<double>(recordings.size());
+    const FilterNoises usual;
+    FilterNoises none;
+    none.factor.fill(std::numeric_limits<double>::min());
+    none.coloured = (kLeastShare * power.cwiseSqrt()).cwiseMax(std::numeric_limits<double>::min());
+    none.white = none.coloured.cwiseProduct(usual.white.cwiseQuotient(usual.coloured));
+    return of(none);
+  }
   [[nodiscard]] Eigen::VectorXd prior_stds() const {
-    constexpr Eigen::Index kDisturbances = 12;
     Eigen::VectorXd stds = Eigen::VectorXd::Constant(kDisturbances + std::ssize(channels_), kFactorStd);
     stds.head<kDisturbances>().setConstant(kDisturbanceStd);
     return stds;
   }
 
  private:
+  static constexpr Eigen::Index kDisturbances = 12;
+
   [[nodiscard]] std::vector<double*> places_in(FilterNoises& noises) const {
     std::vector<double*> places;
     for (double& one : noises.white) places.push_back(&one);
@@ -92,8 +107,9 @@ NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterN
   const auto cost_of = [&](const Filtered& of, const Eigen::VectorXd& logs) {
     return of.cost() + precision.dot((logs - usual).cwiseAbs2());
   };
-  Eigen::VectorXd logs = sizes.of(start);
-  Filtered here = filtered(recordings, start);
+  const Eigen::VectorXd least = sizes.least(recordings);
+  Eigen::VectorXd logs = sizes.of(start).cwiseMax(least);
+  Filtered here = filtered(recordings, sizes.with(start, logs));
   double cost = cost_of(here, logs);
   // What hardly matters goes too far and comes back; with one length for all, the others would wait for it.
   Eigen::VectorXd last = Eigen::VectorXd::Zero(logs.size());
@@ -122,7 +138,8 @@ NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterN
     last = change;
     double gain = -1;
     for (int halving = 0; halving < 6 && gain < 0; ++halving, change /= 2) {
-      const Eigen::VectorXd next = logs + change;
+      Eigen::VectorXd next = logs + change;
+      next = next.cwiseMax(least);
       Filtered there = filtered(recordings, sizes.with(start, next));
       const double after = cost_of(there, next);
       if (!(after < cost)) continue;

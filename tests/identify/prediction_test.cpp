@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "tests/identify/identification_case.h"
 
@@ -48,6 +49,20 @@ TEST(VehiclePrediction, TheTrueVehicleIsBestAndAWrongOneIsCalledWorse) {
   const Prediction reversed = predict({wrong, of.second, of.first, 5}, kUnheard);
   EXPECT_TRUE(reversed.worse_than_linear);
   EXPECT_TRUE(reversed.worse_than_hold);
+}
+
+// A glider reads its attitude every four seconds, and nothing measures its velocity.
+TEST(VehiclePrediction, ReadingsTooFarApartAreSaidToBeSo) {
+  Driven of = driven(4);
+  of.second.front() = thinned(of.second.front(), 4);
+  try {
+    (void)predict({of.truth, of.second, {}, 10}, kUnheard);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("0, 0 and 0 % of the time (readings more than 2 s apart"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(VehiclePrediction, WithoutTrainingThereIsNoRegression) {
