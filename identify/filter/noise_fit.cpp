@@ -111,7 +111,7 @@ NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterN
   Eigen::VectorXd logs = sizes.of(start).cwiseMax(least);
   Filtered here = filtered(recordings, sizes.with(start, logs));
   double cost = cost_of(here, logs);
-  // What hardly matters goes too far and comes back; with one length for all, the others would wait for it.
+  // Sizes that hardly matter go too far and come back; with one length for all, the others would wait for them.
   Eigen::VectorXd last = Eigen::VectorXd::Zero(logs.size());
   Eigen::ArrayXd longest = Eigen::ArrayXd::Constant(logs.size(), kLongestLog);
   for (int step = 0; step < kNoiseSteps; ++step) {
