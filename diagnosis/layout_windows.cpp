@@ -128,9 +128,7 @@ void LayoutWindows::learn(const gap::Progress& progress) {
 bool LayoutWindows::is_quiet(double model_error) const {
   for (std::size_t i = 0; i < nominal_.size(); ++i) {
     // The vehicle by the other recordings.
-    std::vector<Likelihood> others = study_.bank.recordings;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const JointPrior prior = prior_from(others, study_.bank.scatter);
+    const JointPrior prior = study_.bank.prior_by_others(i);
     gap::ChangeDetector detector(model_.causes, prior.root, model_.noise_factor, model_error);
     for (const NominalWindow& window : nominal_[i]) {
       const Likelihood here = window.linear.about(prior.mean - study_.bank.prior.mean).blurred(new_root_);

@@ -60,7 +60,7 @@ std::vector<ChannelFit> channels_of_fit(const PredictionErrorProblem& problem, c
     ChannelFit fit{channel, 0, problem.noises().factor[c], 0};
     FilteredReplay::Neighbours neighbours;
     for (std::size_t r = 0; r < problem.filters().size(); ++r) {
-      const auto own = problem.filters()[r].neighbours(estimate.point.passes[r], c);
+      const auto own = problem.filters()[r].neighbours(estimate.point.passes[r].readings, c);
       neighbours.count += own.count;
       neighbours.squares += own.squares;
       neighbours.products += own.products;
@@ -218,10 +218,7 @@ Thinned fitted(const IdentifyRequest& request, const std::vector<Parameter>& par
     } else {
       all.found = estimate(*all.problem, progress);
     }
-    std::vector<FollowedRecording> followed;
-    for (std::size_t r = 0; r < all.recordings.size(); ++r)
-      followed.push_back({&all.problem->filters()[r], &all.found.point.passes[r]});
-    const double correlation = least_correlation(followed, all.problem->noises());
+    const double correlation = least_correlation(all.problem->followed(all.found.point), all.problem->noises());
     before = std::move(all);
     if (correlation < kDependent) break;
   }

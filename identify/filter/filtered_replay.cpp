@@ -367,12 +367,13 @@ sim::Vector6 FilteredReplay::actuator_power(const FilterPass& pass) const {
   return sum / std::max(count, 1.0);
 }
 
-FilteredReplay::Neighbours FilteredReplay::neighbours(const FilterPass& pass, std::size_t channel) const {
+FilteredReplay::Neighbours FilteredReplay::neighbours(std::span<const FilterPass::Reading> of,
+                                                      std::size_t channel) const {
   Neighbours all;
   double before = 0;
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     if (static_cast<std::size_t>(readings_[i].channel) != channel) continue;
-    const double white = pass.readings[i].white;
+    const double white = of[i].white;
     all.products += before * white;
     all.squares += white * white;
     before = white;

@@ -101,13 +101,13 @@ class FilteredReplay {
   /// readings' variances and white innovations; its other members stay as they are.
   void filter_again(const FilterPass& pass, const FilterNoises& noises, std::span<FilterPass::Reading> out) const;
 
-  /// The innovations of one channel in a pass: their number, squares, and products of neighbours.
+  /// White innovations of one channel: their number, squares, and products of neighbours. `of`: a pass's readings.
   struct Neighbours {
     double count = 0, squares = 0, products = 0;
 
     [[nodiscard]] double correlation() const { return squares > 0 ? products / squares : 0; }
   };
-  [[nodiscard]] Neighbours neighbours(const FilterPass& pass, std::size_t channel) const;
+  [[nodiscard]] Neighbours neighbours(std::span<const FilterPass::Reading> of, std::size_t channel) const;
 
   void set_noises(const FilterNoises& noises) { noises_ = noises; }
   [[nodiscard]] const FilterNoises& noises() const { return noises_; }

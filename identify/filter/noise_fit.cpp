@@ -98,16 +98,13 @@ Filtered filtered(std::span<const FollowedRecording> recordings, const FilterNoi
   return all;
 }
 
-}  // namespace
-
-NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterNoises& start, unsigned threads) {
-  const Sizes sizes(recordings);
+NoiseFit fit(const Sizes& sizes, const Eigen::VectorXd& least, std::span<const FollowedRecording> recordings,
+             const FilterNoises& start, unsigned threads) {
   const Eigen::VectorXd usual = sizes.of(FilterNoises{});
   const Eigen::VectorXd precision = sizes.prior_stds().cwiseAbs2().cwiseInverse();
   const auto cost_of = [&](const Filtered& of, const Eigen::VectorXd& logs) {
     return of.cost() + precision.dot((logs - usual).cwiseAbs2());
   };
-  const Eigen::VectorXd least = sizes.least(recordings);
   Eigen::VectorXd logs = sizes.of(start).cwiseMax(least);
   Filtered here = filtered(recordings, sizes.with(start, logs));
   double cost = cost_of(here, logs);
@@ -138,8 +135,7 @@ NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterN
     last = change;
     double gain = -1;
     for (int halving = 0; halving < 6 && gain < 0; ++halving, change /= 2) {
-      Eigen::VectorXd next = logs + change;
-      next = next.cwiseMax(least);
+      const Eigen::VectorXd next = (logs + change).cwiseMax(least);
       Filtered there = filtered(recordings, sizes.with(start, next));
       const double after = cost_of(there, next);
       if (!(after < cost)) continue;
@@ -153,14 +149,23 @@ NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterN
   return {sizes.with(start, logs), cost};
 }
 
+}  // namespace
+
+NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterNoises& start, unsigned threads) {
+  const Sizes sizes(recordings);
+  return fit(sizes, sizes.least(recordings), recordings, start, threads);
+}
+
 NoiseFit fit_noises_and_tau(std::span<const FollowedRecording> recordings, const FilterNoises& start,
                             unsigned threads) {
+  const Sizes sizes(recordings);
+  const Eigen::VectorXd least = sizes.least(recordings);
   NoiseFit best{start, std::numeric_limits<double>::infinity()};
   for (const double tau_s : {1.0, 3.0, 10.0, 30.0}) {
     FilterNoises from = best.cost < std::numeric_limits<double>::infinity() ? best.noises : start;
     from.tau_s = tau_s;
-    const NoiseFit fit = fit_noises(recordings, from, threads);
-    if (fit.cost < best.cost - kWorthLonger || tau_s == 1) best = fit;
+    const NoiseFit found = fit(sizes, least, recordings, from, threads);
+    if (found.cost < best.cost - kWorthLonger || tau_s == 1) best = found;
   }
   return best;
 }
@@ -168,8 +173,8 @@ NoiseFit fit_noises_and_tau(std::span<const FollowedRecording> recordings, const
 double least_correlation(std::span<const FollowedRecording> recordings, const FilterNoises& noises) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [filter, pass] : recordings) {
-    FilterPass again = *pass;
-    filter->filter_again(*pass, noises, again.readings);
+    std::vector<FilterPass::Reading> again(pass->readings.size());
+    filter->filter_again(*pass, noises, again);
     double sum = 0, count = 0;
     for (std::size_t c = 0; c < kChannels; ++c) {
       if (!filter->recording().varies(c)) continue;

@@ -23,7 +23,8 @@ struct NoiseFit {
 /// Disturbances and noises of instruments that several recordings of a vehicle share, by maximum a posteriori with
 /// the derivatives of the passes held: no call of the model. The logarithms of all sizes are normal about those of
 /// FilterNoises' defaults, with a factor of e^2 (disturbances) or e (noise of readings) as a standard deviation.
-/// tau is that of `start`.
+/// tau is that of `start`. A disturbance is not below 1 % of the acceleration that the actuators cause in its
+/// axis, and the noise of a channel that always reads the same is that of `start`.
 ///
 /// Fisher scoring (Harvey 1989, Forecasting, Structural Time Series Models and the Kalman Filter, section 3.4.5).
 [[nodiscard]] NoiseFit fit_noises(std::span<const FollowedRecording> recordings, const FilterNoises& start,

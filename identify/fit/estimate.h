@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "identify/filter/filtered_replay.h"
+#include "identify/filter/noise_fit.h"
 
 namespace navcal::identify {
 
@@ -64,6 +64,7 @@ class PredictionErrorProblem {
   /// Leaves out what diverges with these unknowns; returns the number of places.
   std::size_t leave_out_diverging(const Eigen::VectorXd& unknowns);
   void fit_noises(const Point& point, bool with_tau);
+  [[nodiscard]] std::vector<FollowedRecording> followed(const Point& point) const;
   void set_noises(const FilterNoises& noises);
 
   [[nodiscard]] const FilterNoises& noises() const { return filters_.front().noises(); }

@@ -194,11 +194,15 @@ std::size_t PredictionErrorProblem::leave_out_diverging(const Eigen::VectorXd& u
   return count;
 }
 
+std::vector<FollowedRecording> PredictionErrorProblem::followed(const Point& point) const {
+  std::vector<FollowedRecording> all;
+  for (std::size_t r = 0; r < filters_.size(); ++r) all.push_back({&filters_[r], &point.passes[r]});
+  return all;
+}
+
 void PredictionErrorProblem::fit_noises(const Point& point, bool with_tau) {
-  std::vector<FollowedRecording> followed;
-  for (std::size_t r = 0; r < filters_.size(); ++r) followed.push_back({&filters_[r], &point.passes[r]});
-  set_noises((with_tau ? fit_noises_and_tau(followed, noises(), settings_.threads)
-                       : identify::fit_noises(followed, noises(), settings_.threads))
+  set_noises((with_tau ? fit_noises_and_tau(followed(point), noises(), settings_.threads)
+                       : identify::fit_noises(followed(point), noises(), settings_.threads))
                  .noises);
 }
 

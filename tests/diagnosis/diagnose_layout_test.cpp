@@ -18,7 +18,7 @@ bool says_readings_depend(const gap::Diagnosis& answer) {
   });
 }
 
-/// With noise that a filter before the logger made last for half a second.
+/// A recording whose noise lasts for half a second, as a filter before the logger makes it.
 identify::RecordedMotion filtered(identify::RecordedMotion motion) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
@@ -48,7 +48,8 @@ TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   EXPECT_LT(answer.gap.pooled.after, answer.gap.pooled.before);
 }
 
-// They say the same several times. Taken for independent, they made a nominal ship late by its Doppler log.
+// Readings that were filtered say the same several times. Taken for independent, they made a nominal ship late by
+// its Doppler log.
 TEST(DiagnoseLayout, ReadingsWithLastingNoiseAreThinned) {
   const auto of = micro();
   const gap::Diagnosis answer =

@@ -120,7 +120,7 @@ TEST(LayoutVerdict, OneNominalRecordingTellsNothingOfTheScatterBetweenRecordings
   EXPECT_EQ(searched.verdict().verdict, gap::Verdict::no_gap);
 }
 
-// The one fix of each nominal dive was right to a hundredth of its noise, and then every dive had a louder fix.
+// The one fix of each nominal dive was right to a fiftieth of its noise, and then every dive had a louder fix.
 TEST(LayoutVerdict, TheOnlyReadingOfAChannelSetsNoFloor) {
   RecordingPower nominal;
   nominal.of_channel.fill(1);

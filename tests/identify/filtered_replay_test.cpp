@@ -87,7 +87,7 @@ TEST(FilteredReplay, ALateReadingIsPredictedWhereTheVehicleWas) {
     values[std::ssize(filter.parameters()) + static_cast<Eigen::Index>(Nuisance::heading_delay)] = late_s;
     const auto pass = filter.follow(values);
     if (!pass) return 1e9;
-    const auto all = filter.neighbours(*pass, static_cast<std::size_t>(Channel::heading));
+    const auto all = filter.neighbours(pass->readings, static_cast<std::size_t>(Channel::heading));
     return all.squares / all.count;
   };
   const double prompt = power(0);
